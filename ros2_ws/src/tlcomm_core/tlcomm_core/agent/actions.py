@@ -1,0 +1,77 @@
+"""What an agent's brain asks its shell to do: immutable requests, in the imperative.
+
+``Drive``         set the velocity
+``SendMessage``   say something to whoever is in range
+``ReportTask``    publish a ``TaskEvent``
+``HoldStrategy``  publish the team strategy that this agent holds as agreed
+``CountIgnored``  count a message that was late, duplicate, foreign or malformed
+``Action``        any of them
+"""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+from tlcomm_core.protocol.actions import CountIgnored, HoldStrategy, SendMessage
+
+__all__ = [
+    "Action",
+    "CountIgnored",
+    "Drive",
+    "HoldStrategy",
+    "ReportTask",
+    "SendMessage",
+    "TaskEvent",
+    "TaskEventKind",
+]
+
+
+class TaskEventKind(IntEnum):
+    """The kinds of ``tlcomm_msgs/TaskEvent``."""
+
+    ACTION_STARTED = 1
+    ACTION_FINISHED = 2
+    MEETING_REACHED = 3
+    MEETING_STARTED = 4
+    MEETING_ENDED = 5
+    TASK_SATISFIED = 6
+    ROUND_AGREED = 7
+    FAULT = 8
+
+
+@dataclass(frozen=True, slots=True)
+class TaskEvent:
+    """What an agent did just now.
+
+    Attributes:
+        kind: what.
+        region: where, or "" when at no region.
+        action: with what action, or "".
+        round: the round whose meeting it is at or heads for.
+        plan_index: index in the local plan of the step under way or last done.
+        detail: for people; machine-readable parts as ``key=value``.
+    """
+
+    kind: TaskEventKind
+    region: str
+    action: str
+    round: int
+    plan_index: int
+    detail: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """Set the velocity; it holds until the next one."""
+
+    linear_mps: float
+    angular_radps: float
+
+
+@dataclass(frozen=True, slots=True)
+class ReportTask:
+    """Publish what was done."""
+
+    event: TaskEvent
+
+
+Action = Drive | SendMessage | ReportTask | HoldStrategy | CountIgnored

@@ -1,0 +1,342 @@
+"""Hybrid execution: an agent's plan, interleaved with the team's meetings.
+
+``Brain``     events in, actions out; no clock, no logger, no transport inside
+``Settings``  what a brain is made of
+
+What it is doing is one of four activities, in this cycle (Section IV-C of the paper):
+
+Meeting    at its place: negotiate the next meeting; leave at t_c + D_c.
+Driving    to the next step of its plan, or to the next place of meeting.
+Acting     at a step's region, until the step is done.
+           Steps go on, through prefix and suffix, up to h; then to z, and Meeting again.
+
+At t = 0 the team is connected: the first odometry finds the agent at the meeting of round 0.
+"""
+
+import math
+from dataclasses import dataclass
+
+from tlcomm_core.agent.actions import Action, Drive, ReportTask, TaskEvent, TaskEventKind
+from tlcomm_core.agent.controller import Follower, Pacing
+from tlcomm_core.agent.events import Event, MessageHeard, OdometryReceived, TimePassed
+from tlcomm_core.errors import LocalMisuseError
+from tlcomm_core.game.offer import next_stops
+from tlcomm_core.game.strategy import Strategy
+from tlcomm_core.geometry import Pose, wrap_angle
+from tlcomm_core.planning.plan import LocalPlan, PlanStep
+from tlcomm_core.protocol.actions import CountIgnored
+from tlcomm_core.protocol.messages import MemberOffer
+from tlcomm_core.protocol.negotiation import Negotiation, Rounds
+from tlcomm_core.protocol.team import Team
+from tlcomm_core.workspace.travel import Leg, TravelTimes
+from tlcomm_core.world.unicycle import integrate
+
+__all__ = ["Brain", "Settings"]
+
+# Simulated time has nanoseconds: a time less than this ahead has come.
+_RESOLUTION_S = 1e-9
+
+# An agent that ends a leg as near as its tolerance and no further turned than this takes itself
+# to be where the leg was to end: what it is off by is the controller's business.
+_YAW_TOLERANCE_RAD = 0.1
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """What a brain is made of.
+
+    Attributes:
+        name: the agent's name.
+        plan: its local plan.
+        travel: travel times with its own motion.
+        team: the team.
+        rounds: poses round problems.
+        position_tolerance_m: how far its controller may be off a waypoint.
+        pacing: how often its controller is asked.
+    """
+
+    name: str
+    plan: LocalPlan
+    travel: TravelTimes
+    team: Team
+    rounds: Rounds
+    position_tolerance_m: float
+    pacing: Pacing
+
+
+@dataclass(slots=True)
+class _Driving:
+    """On the way to the next step or, with ``meeting`` set, to the place of meeting."""
+
+    leg: Leg
+    follower: Follower
+    meeting: Strategy | None
+    control_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Acting:
+    """At a step's region, until the step is done."""
+
+    step: PlanStep
+    until_s: float
+
+
+@dataclass(slots=True)
+class _Meeting:
+    """At the place of meeting."""
+
+    negotiation: Negotiation
+    has_started: bool = False
+    is_overdue: bool = False
+
+
+class Brain:
+    """One agent: executes its plan, and plans meetings with the others."""
+
+    def __init__(self, settings: Settings) -> None:
+        """Be ready for the first odometry."""
+        self._settings = settings
+        self._odometry: OdometryReceived | None = None
+        self._activity: _Driving | _Acting | _Meeting | None = None
+        self._round = 0
+        self._done = -1
+        self._meeting: Strategy | None = None
+        self._pose = Pose(0.0, 0.0, 0.0)
+
+    @property
+    def meetings_ended(self) -> int:
+        """How many meetings have ended; that of round 0 is the first."""
+        return self._round
+
+    @property
+    def planned_round(self) -> int | None:
+        """The round that is being planned just now; ``None`` when none is."""
+        if isinstance(self._activity, _Meeting) and self._activity.negotiation.agreed is None:
+            return self._activity.negotiation.round
+        return None
+
+    @property
+    def next_need_s(self) -> float:
+        """When the brain must be told that time has passed; inf if only events matter."""
+        match self._activity:
+            case None:
+                return math.inf
+            case _Driving(control_s=control_s):
+                return control_s
+            case _Acting(until_s=until_s):
+                return until_s
+            case _Meeting() as meeting:
+                return min(meeting.negotiation.next_need_s, self._next_change_s(meeting))
+
+    def handle(self, event: Event, now_s: float) -> tuple[Action, ...]:
+        """Take an event at the time ``now_s`` (simulated time); return what to do.
+
+        Of several events at one instant, ``TimePassed`` comes last: messages are only taken in
+        before it, so that one answer is given to all of them.
+
+        Raises:
+            InfeasibleRoundError: the team has no admissible next meeting.
+        """
+        match event:
+            case OdometryReceived():
+                self._odometry = event
+                if self._activity is None:
+                    self._pose = event.pose
+                    return tuple(self._reach_meeting(now_s))
+                return ()
+            case MessageHeard(message):
+                if isinstance(self._activity, _Meeting):
+                    return self._activity.negotiation.hear(message)
+                return (CountIgnored("not meeting"),)
+            case TimePassed():
+                return tuple(self._proceed(now_s))
+
+    def _proceed(self, now_s: float) -> list[Action]:
+        """Do whatever is due; one activity may end and the next begin at one instant."""
+        actions: list[Action] = []
+        while True:
+            activity = self._activity
+            match activity:
+                case None:
+                    return actions
+                case _Driving():
+                    actions += self._drive(activity, now_s)
+                case _Acting():
+                    actions += self._act(activity, now_s)
+                case _Meeting():
+                    actions += self._meet(activity, now_s)
+            if self._activity is activity:
+                return actions
+
+    # Meeting.
+
+    def _reach_meeting(self, now_s: float, detail: str = "") -> list[Action]:
+        self._activity = _Meeting(
+            Negotiation(
+                self._offer(now_s), self._round + 1, self._settings.team, self._settings.rounds
+            )
+        )
+        return [self._report(TaskEventKind.MEETING_REACHED, detail=detail)]
+
+    def _offer(self, now_s: float) -> MemberOffer:
+        settings = self._settings
+        # The departure is D_c after now or after the window's opening at the earliest.
+        earliest_s = max(now_s, settings.team.opens_s(self._round)) + settings.team.duration_s
+        horizon_s = settings.team.opens_s(self._round + 2) - earliest_s
+        return MemberOffer(
+            agent=settings.name,
+            arrival_s=now_s,
+            x_m=self._pose.x_m,
+            y_m=self._pose.y_m,
+            yaw_rad=self._pose.yaw_rad,
+            linear_mps=settings.travel.motion.linear_mps,
+            angular_radps=settings.travel.motion.angular_radps,
+            stops=next_stops(settings.plan, self._done + 1, self._pose, settings.travel, horizon_s),
+        )
+
+    def _next_change_s(self, meeting: _Meeting) -> float:
+        """Return when the meeting starts or ends, as far as it is known."""
+        starts_s = meeting.negotiation.meeting_s
+        if starts_s is None:
+            return math.inf
+        if not meeting.has_started:
+            return starts_s
+        return math.inf if meeting.is_overdue else starts_s + self._settings.team.duration_s
+
+    def _meet(self, meeting: _Meeting, now_s: float) -> list[Action]:
+        negotiation = meeting.negotiation
+        was_agreed = negotiation.agreed is not None
+        actions: list[Action] = [*negotiation.proceed(now_s)]
+        if self._is_due(self._next_change_s(meeting), now_s) and not meeting.has_started:
+            meeting.has_started = True
+            detail = f"t_c_s={negotiation.meeting_s:.9f}"
+            actions.append(self._report(TaskEventKind.MEETING_STARTED, detail=detail))
+        if negotiation.agreed is not None and not was_agreed:
+            actions.append(self._report(TaskEventKind.ROUND_AGREED, round_=negotiation.round))
+        if meeting.has_started and self._is_due(self._departure_s(meeting), now_s):
+            actions += self._end_meeting(meeting, now_s)
+        return actions
+
+    def _departure_s(self, meeting: _Meeting) -> float:
+        starts_s = meeting.negotiation.meeting_s
+        return math.inf if starts_s is None else starts_s + self._settings.team.duration_s
+
+    def _end_meeting(self, meeting: _Meeting, now_s: float) -> list[Action]:
+        """Leave with an agreement; without one stay, since leaving would scatter the team."""
+        agreed = meeting.negotiation.agreed
+        if agreed is None:
+            if meeting.is_overdue:
+                return []
+            meeting.is_overdue = True
+            detail = f"no agreement on round {meeting.negotiation.round} when the meeting ended"
+            return [self._report(TaskEventKind.FAULT, detail=detail)]
+        actions: list[Action] = [self._report(TaskEventKind.MEETING_ENDED)]
+        self._round = agreed.round
+        self._meeting = next(s for s in agreed.strategies if s.agent == self._settings.name)
+        return [*actions, *self._set_out(now_s)]
+
+    # Driving and acting.
+
+    def _set_out(self, now_s: float) -> list[Action]:
+        """Go to the next step or, after step h, to the meeting."""
+        meeting = self._meeting
+        if meeting is None:
+            raise LocalMisuseError("an agent set out before any meeting was agreed")
+        travel = self._settings.travel
+        if self._done < meeting.task_index:
+            leg = travel.leg_to(self._pose, self._settings.plan.step(self._done + 1).location)
+            meeting = None
+        else:
+            place = travel.grid.location_at(meeting.x_m, meeting.y_m)
+            if place is None:
+                raise LocalMisuseError(f"the agreed place of {meeting!r} isn't free")
+            leg = travel.leg_from(self._pose, place)
+        motion = travel.motion
+        follower = Follower(
+            leg,
+            motion.linear_mps,
+            motion.angular_radps,
+            self._settings.position_tolerance_m,
+            self._settings.pacing,
+        )
+        self._activity = _Driving(leg, follower, meeting, now_s)
+        return []
+
+    def _drive(self, driving: _Driving, now_s: float) -> list[Action]:
+        if not self._is_due(driving.control_s, now_s):
+            return []
+        pose = self._pose_at(now_s)
+        control = driving.follower.control(pose, now_s)
+        if control is not None:
+            drive, driving.control_s = control
+            return [drive]
+        self._pose = self._taken_for(driving.leg.arrival, pose)
+        actions: list[Action] = [Drive(0.0, 0.0)] if driving.leg.waypoints_m else []
+        if driving.meeting is None:
+            return [*actions, *self._begin_step(now_s)]
+        predicted_s = driving.meeting.arrival_s
+        detail = f"predicted_s={predicted_s:.9f} error_s={now_s - predicted_s:.9f}"
+        return [*actions, *self._reach_meeting(now_s, detail)]
+
+    def _begin_step(self, now_s: float) -> list[Action]:
+        step = self._settings.plan.step(self._done + 1)
+        self._activity = _Acting(step, now_s + step.duration_s)
+        if step.action is None:
+            return []
+        return [self._report(TaskEventKind.ACTION_STARTED, step, self._done + 1)]
+
+    def _act(self, acting: _Acting, now_s: float) -> list[Action]:
+        if not self._is_due(acting.until_s, now_s):
+            return []
+        self._done += 1
+        actions: list[Action] = []
+        if acting.step.action is not None:
+            actions.append(self._report(TaskEventKind.ACTION_FINISHED, acting.step))
+        if acting.step.satisfies:
+            actions.append(self._report(TaskEventKind.TASK_SATISFIED, acting.step))
+        return [*actions, *self._set_out(now_s)]
+
+    # Where and when it is.
+
+    def _pose_at(self, now_s: float) -> Pose:
+        """Return the pose by dead reckoning from the last odometry."""
+        odometry = self._odometry
+        if odometry is None:
+            raise LocalMisuseError("an agent drove before its first odometry")
+        return integrate(
+            odometry.pose,
+            odometry.linear_mps,
+            odometry.angular_radps,
+            max(0.0, now_s - odometry.stamp_s),
+        )
+
+    def _taken_for(self, expected: Pose, actual: Pose) -> Pose:
+        """Return the expected pose if the actual one is as near as can be expected."""
+        off_m = actual.distance_m(expected.x_m, expected.y_m)
+        off_rad = abs(wrap_angle(actual.yaw_rad - expected.yaw_rad))
+        is_near = off_m <= self._settings.position_tolerance_m and off_rad <= _YAW_TOLERANCE_RAD
+        return expected if is_near else actual
+
+    @staticmethod
+    def _is_due(time_s: float, now_s: float) -> bool:
+        return now_s >= time_s - _RESOLUTION_S
+
+    def _report(
+        self,
+        kind: TaskEventKind,
+        step: PlanStep | None = None,
+        plan_index: int | None = None,
+        round_: int | None = None,
+        detail: str = "",
+    ) -> ReportTask:
+        return ReportTask(
+            TaskEvent(
+                kind=kind,
+                region="" if step is None else step.region,
+                action="" if step is None or step.action is None else step.action,
+                round=self._round if round_ is None else round_,
+                plan_index=max(0, self._done) if plan_index is None else plan_index,
+                detail=detail,
+            )
+        )

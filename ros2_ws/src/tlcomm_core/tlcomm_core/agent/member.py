@@ -1,0 +1,144 @@
+"""One agent as a shell holds it: brain and radio, on integer nanoseconds.
+
+``Member``  the same in one process and over ROS
+``create``  a member from a scenario
+"""
+
+import math
+from typing import Final
+
+from tlcomm_core.agent.actions import Action
+from tlcomm_core.agent.brain import Brain, Settings
+from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
+from tlcomm_core.agent.events import MessageHeard, OdometryReceived, TimePassed
+from tlcomm_core.agent.radio import Radio
+from tlcomm_core.agent.rounds import MeetingRounds
+from tlcomm_core.geometry import Pose
+from tlcomm_core.ltl import parse
+from tlcomm_core.planning.plan import LocalPlan
+from tlcomm_core.planning.synthesis import plan_task
+from tlcomm_core.planning.transition_system import build
+from tlcomm_core.protocol.messages import Message
+from tlcomm_core.protocol.team import Team
+from tlcomm_core.scenario.site import Site
+from tlcomm_core.units import nanoseconds, seconds
+from tlcomm_core.workspace.travel import TravelTimes
+
+__all__ = ["Member", "create", "local_plan"]
+
+# What a periodic controller may lose at the end of a turn or a straight: the rest of its period
+# and a late timer.
+_ALLOWANCE_S: Final = {Pacing.EVENT: 0.0, Pacing.PERIODIC: 1.2 * CONTROL_PERIOD_S}
+
+
+class Member:
+    """One agent: what its radio lets through and its odometry reach its brain, at given times."""
+
+    def __init__(self, name: str, brain: Brain, radio: Radio) -> None:
+        """Join a brain and a radio."""
+        self.name: Final = name
+        self._brain = brain
+        self._radio = radio
+        self._odometry: list[OdometryReceived] = []
+        self._next_need_ns: int | None = None
+
+    @property
+    def next_need_ns(self) -> int | None:
+        """When, after the last step, the next one is needed at the latest; ``None`` if never."""
+        return self._next_need_ns
+
+    @property
+    def meetings_ended(self) -> int:
+        """How many meetings have ended; that of round 0 is the first."""
+        return self._brain.meetings_ended
+
+    @property
+    def planned_round(self) -> int | None:
+        """The round that is being planned just now; ``None`` when none is."""
+        return self._brain.planned_round
+
+    @property
+    def out_of_range(self) -> int:
+        """How many messages the radio didn't let through."""
+        return self._radio.out_of_range
+
+    def see_odometry(
+        self, stamp_ns: int, pose: Pose, linear_mps: float, angular_radps: float
+    ) -> None:
+        """Take an odometry; the next step makes use of it."""
+        self._odometry.append(OdometryReceived(seconds(stamp_ns), pose, linear_mps, angular_radps))
+
+    def see_neighbours(self, stamp_ns: int, neighbours: frozenset[str]) -> None:
+        """Note who is in range from ``stamp_ns`` on."""
+        self._radio.see_neighbours(stamp_ns, neighbours)
+
+    def receive(self, message: Message, sent_ns: int) -> None:
+        """Take a message off the air; the radio decides whether the brain hears it."""
+        self._radio.receive(message, sent_ns)
+
+    def step(self, now_ns: int) -> tuple[Action, ...]:
+        """Do all that is due by now.
+
+        Raises:
+            InfeasibleRoundError: the team has no admissible next meeting.
+        """
+        now_s = seconds(now_ns)
+        actions: list[Action] = []
+        odometry, self._odometry = self._odometry, []
+        for event in odometry:
+            actions += self._brain.handle(event, now_s)
+        for message in self._radio.heard(now_ns):
+            actions += self._brain.handle(MessageHeard(message), now_s)
+        actions += self._brain.handle(TimePassed(), now_s)
+        need_s = self._brain.next_need_s
+        # Rounding must not ask for the instant that just was.
+        self._next_need_ns = None if need_s == math.inf else max(nanoseconds(need_s), now_ns + 1)
+        return tuple(actions)
+
+
+def local_plan(name: str, site: Site, travel: TravelTimes) -> LocalPlan:
+    """Return an agent's optimal local plan.
+
+    Raises:
+        PlanningError: there is none.
+    """
+    system = build(
+        travel,
+        site.start_of(name),
+        site.region_location,
+        site.regions_at,
+        site.action_durations(name),
+    )
+    return plan_task(parse(site.scenario.agents[name].task), system)
+
+
+def create(name: str, site: Site, pacing: Pacing) -> Member:
+    """Return a member of the scenario's team, with its local plan made.
+
+    Raises:
+        PlanningError: the agent's task has no plan.
+    """
+    scenario = site.scenario
+    communication = scenario.communication
+    travel = TravelTimes(site.grid, site.motion_of(name, _ALLOWANCE_S[pacing]))
+    team = Team(
+        members=frozenset(scenario.agents),
+        range_m=communication.range_m,
+        planned_range_m=site.planned_range_m,
+        period_s=communication.period_s,
+        duration_s=communication.duration_s,
+    )
+    brain = Brain(
+        Settings(
+            name=name,
+            plan=local_plan(name, site, travel),
+            travel=travel,
+            team=team,
+            rounds=MeetingRounds(travel, team),
+            position_tolerance_m=scenario.drive_of(name).position_tolerance_m,
+            pacing=pacing,
+        )
+    )
+    # Free running, a message is heard when it comes; in lock step, one hop's latency after.
+    latency_ns = nanoseconds(communication.hop_latency_s) if pacing is Pacing.EVENT else 0
+    return Member(name, brain, Radio(latency_ns))

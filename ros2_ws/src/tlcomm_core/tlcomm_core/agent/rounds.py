@@ -1,0 +1,57 @@
+"""Round problems from offers, on this agent's map.
+
+``MeetingRounds``  the negotiation's ``Rounds``
+"""
+
+from collections.abc import Sequence
+
+from tlcomm_core.game.candidates import candidates
+from tlcomm_core.game.offer import offer_flaw
+from tlcomm_core.game.problem import RoundProblem
+from tlcomm_core.protocol.messages import MemberOffer
+from tlcomm_core.protocol.team import Team
+from tlcomm_core.workspace.travel import Motion, TravelTimes
+
+__all__ = ["MeetingRounds"]
+
+
+class MeetingRounds:
+    """Poses round problems: every member's candidates, from its offer and the common map."""
+
+    def __init__(self, travel: TravelTimes, team: Team) -> None:
+        """Use the map of ``travel``, whose allowance per segment holds for all members.
+
+        Args:
+            travel: this agent's own travel times.
+            team: the team.
+        """
+        self._grid = travel.grid
+        self._team = team
+        self._allowance_s = travel.motion.segment_allowance_s
+        self._travel = {travel.motion: travel}
+
+    def is_sound(self, offer: MemberOffer) -> bool:
+        """Return whether candidates can be computed from a peer's offer."""
+        return offer_flaw(offer, self._grid) is None
+
+    def problem(
+        self, round_: int, departure_s: float, offers: Sequence[MemberOffer]
+    ) -> RoundProblem:
+        """Return the round problem that the members' offers, sorted by agent, pose."""
+        window_s = self._team.window_s(round_)
+        return RoundProblem(
+            round=round_,
+            window_s=window_s,
+            range_m=self._team.planned_range_m,
+            locations_m=self._grid.locations_m,
+            candidates=tuple(
+                candidates(offer, departure_s, window_s, self._travel_of(offer)) for offer in offers
+            ),
+        )
+
+    def _travel_of(self, offer: MemberOffer) -> TravelTimes:
+        """Return the travel times with a member's speeds; members of equal speeds share them."""
+        motion = Motion(offer.linear_mps, offer.angular_radps, self._allowance_s)
+        if motion not in self._travel:
+            self._travel[motion] = TravelTimes(self._grid, motion)
+        return self._travel[motion]

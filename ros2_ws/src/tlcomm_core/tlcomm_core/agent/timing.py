@@ -1,0 +1,61 @@
+"""What agreeing on a round takes an agent, in wall time.
+
+``TimedMember``  a member whose steps are measured while it plans a round
+"""
+
+from collections.abc import Callable
+
+from tlcomm_core.agent.actions import Action
+from tlcomm_core.agent.member import Member
+from tlcomm_core.protocol.actions import HoldStrategy, SendMessage
+from tlcomm_core.records import RoundTiming
+
+__all__ = ["TimedMember"]
+
+
+class TimedMember:
+    """A member whose steps are measured while it plans a round.
+
+    The clocks are the shell's, so that the core stays without any.
+    """
+
+    def __init__(
+        self, member: Member, stopwatch_s: Callable[[], float], wall_s: Callable[[], float]
+    ) -> None:
+        """Measure ``member``.
+
+        Args:
+            member: whose steps.
+            stopwatch_s: a steady clock of high resolution, such as ``time.perf_counter``.
+            wall_s: a clock that all processes share, such as ``time.time``.
+        """
+        self.member = member
+        self._stopwatch_s = stopwatch_s
+        self._wall_s = wall_s
+        self._solve_wall_s = 0.0
+        self._offered_wall_s: float | None = None
+
+    def step(self, now_ns: int) -> tuple[tuple[Action, ...], RoundTiming | None]:
+        """Take a step; return its actions and, when it agreed on a round, what that took."""
+        begin_wall_s = self._wall_s()
+        begin_s = self._stopwatch_s()
+        was_planning = self.member.planned_round is not None
+        actions = self.member.step(now_ns)
+        elapsed_s = self._stopwatch_s() - begin_s
+        if was_planning or self.member.planned_round is not None:
+            self._solve_wall_s += elapsed_s
+        if self._offered_wall_s is None and any(isinstance(a, SendMessage) for a in actions):
+            self._offered_wall_s = begin_wall_s
+        held = next((a.strategy for a in actions if isinstance(a, HoldStrategy)), None)
+        if held is None:
+            return actions, None
+        timing = RoundTiming(
+            agent=self.member.name,
+            round=held.round,
+            solve_wall_s=self._solve_wall_s,
+            offered_wall_s=begin_wall_s if self._offered_wall_s is None else self._offered_wall_s,
+            agreed_wall_s=self._wall_s(),
+        )
+        self._solve_wall_s = 0.0
+        self._offered_wall_s = None
+        return actions, timing

@@ -1,0 +1,1 @@
+"""The meeting game: candidates, initial strategy, best responses, equilibrium."""

@@ -1,0 +1,89 @@
+"""From an agent's offer to its candidates: arrival times and extra travel for all (z, h).
+
+``candidates``  the tables of one agent
+"""
+
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tlcomm_core.errors import LocalMisuseError
+from tlcomm_core.game.problem import Candidates
+from tlcomm_core.geometry import Pose
+from tlcomm_core.protocol.messages import MemberOffer, PlannedStop
+from tlcomm_core.workspace.travel import TravelTimes
+
+__all__ = ["ROUNDING_S", "candidates"]
+
+ROUNDING_S: Final = 1e-3
+"""Kept free before the window's end: simulated time is rounded to nanoseconds, each time anew."""
+
+_Row = tuple[NDArray[np.float64], NDArray[np.float64]]
+
+
+def candidates(
+    offer: MemberOffer,
+    departure_s: float,
+    window_s: tuple[float, float],
+    travel: TravelTimes,
+) -> Candidates:
+    """Return the strategies open to an agent in the window.
+
+    Args:
+        offer: its plan; the last stop is only what follows its forerunner.
+        departure_s: when it leaves the present meeting, t_c + D_c (simulated time).
+        window_s: [r·T_c, (r+1)·T_c) of the meeting to plan.
+        travel: travel times with the agent's own motion.
+
+    Returns:
+        A row for each stop h but the last that has an admissible entry. An entry is admissible
+        when z and the way back are reachable and the agent is there by the window's end less
+        ``ROUNDING_S``; too early is admissible, as an agent can wait.
+
+    Raises:
+        LocalMisuseError: a stop isn't in a free cell, or unreachable from the one before.
+
+    Source: Section IV-B1 of the paper: t_{i,s_i} is when stop h is finished plus T_i(π^h, z), and
+        δ_{i,s_i} = T_i(π^h, z) + T_i(z, π^{h+1}) − T_i(π^h, π^{h+1}), headings included.
+    Cost: O(Z) for each stop once ``travel`` has cached its searches.
+    """
+    shape = (max(len(offer.stops) - 1, 0), len(travel.grid))
+    arrival_s, extra_s = np.empty(shape), np.empty(shape)
+    # A plan's suffix comes by the same places again and again.
+    rows: dict[tuple[Pose, int], _Row] = {}
+    for h, (stop, following) in enumerate(pairwise(offer.stops)):
+        pose = Pose(stop.x_m, stop.y_m, stop.yaw_rad)
+        key = (pose, _location(following, travel))
+        if key not in rows:
+            rows[key] = _detour(*key, travel)
+        time_s, extra_s[h] = rows[key]
+        arrival_s[h] = (departure_s + stop.finish_offset_s) + time_s
+    admissible = (arrival_s < window_s[1] - ROUNDING_S) & np.isfinite(extra_s)
+    kept = admissible.any(axis=1)
+    task_index = np.array([stop.task_index for stop in offer.stops[:-1]], dtype=np.int64)
+    return Candidates(
+        agent=offer.agent,
+        task_index=task_index[kept],
+        arrival_s=np.where(admissible, arrival_s, np.inf)[kept],
+        extra_s=np.where(admissible, extra_s, np.inf)[kept],
+    )
+
+
+def _location(stop: PlannedStop, travel: TravelTimes) -> int:
+    location = travel.grid.location_at(stop.x_m, stop.y_m)
+    if location is None:
+        message = f"stop {stop!r} isn't in a free cell"
+        raise LocalMisuseError(message)
+    return location
+
+
+def _detour(pose: Pose, following: int, travel: TravelTimes) -> _Row:
+    """Return, for each z, the time there and what going by z adds to the way to the next stop."""
+    reach = travel.reach(pose)
+    direct_s = travel.leg_to(pose, following).duration_s
+    onward_s = travel.time_to(following)[np.arange(len(reach.heading)), reach.heading]
+    # Where the agent needn't move, it keeps a yaw that may not be a lattice heading.
+    onward_s[reach.time_s == 0.0] = direct_s
+    return reach.time_s, reach.time_s + onward_s - direct_s

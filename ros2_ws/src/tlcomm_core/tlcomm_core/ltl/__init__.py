@@ -1,0 +1,60 @@
+"""Linear temporal logic: formulas, their text, and the automata that recognise them.
+
+- ``parse``, ``explain``          text to formula, and what is wrong with a text
+- ``Formula``, ``Operator``, ``TRUE``, ``FALSE``, ``atom``, ``atoms``, ``subformulas``, ``to_text``
+- ``negation_normal_form``, ``is_co_safe``, ``recurring``
+- ``translate``                   the Büchi automaton that planning uses
+- ``restarted``, ``good_prefix_automaton``, ``tableau_automaton``   its constructions
+- ``BuchiAutomaton``, ``GoodPrefixAutomaton``, ``Construction``, ``Transition``, ``Guard``, ``Cube``
+- ``to_hoa``, ``to_dot``          for other tools
+"""
+
+from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction, Transition
+from tlcomm_core.ltl.dot import to_dot
+from tlcomm_core.ltl.formula import (
+    FALSE,
+    TRUE,
+    Formula,
+    Operator,
+    atom,
+    atoms,
+    subformulas,
+    to_text,
+)
+from tlcomm_core.ltl.good_prefix import GoodPrefixAutomaton, good_prefix_automaton, restarted
+from tlcomm_core.ltl.guard import Cube, Guard
+from tlcomm_core.ltl.hoa import to_hoa
+from tlcomm_core.ltl.normal_form import is_co_safe, negation_normal_form, recurring
+from tlcomm_core.ltl.parser import MAX_LENGTH, MAX_NESTING, explain, parse
+from tlcomm_core.ltl.tableau import tableau_automaton
+from tlcomm_core.ltl.translation import translate
+
+__all__ = [
+    "FALSE",
+    "MAX_LENGTH",
+    "MAX_NESTING",
+    "TRUE",
+    "BuchiAutomaton",
+    "Construction",
+    "Cube",
+    "Formula",
+    "GoodPrefixAutomaton",
+    "Guard",
+    "Operator",
+    "Transition",
+    "atom",
+    "atoms",
+    "explain",
+    "good_prefix_automaton",
+    "is_co_safe",
+    "negation_normal_form",
+    "parse",
+    "recurring",
+    "restarted",
+    "subformulas",
+    "tableau_automaton",
+    "to_dot",
+    "to_hoa",
+    "to_text",
+    "translate",
+]

@@ -1,0 +1,78 @@
+"""Any LTL formula to a Büchi automaton, by an on-the-fly tableau.
+
+- ``tableau_automaton``   an automaton of the words that satisfy the formula
+
+A state is a set of formulas that the rest of the word must satisfy; expanding it gives the edges.
+An edge carries the mark of every eventuality that it doesn't postpone: an eventuality that is
+never fulfilled is postponed for ever, and its mark isn't seen again.
+"""
+
+from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction, Transition
+from tlcomm_core.ltl.expansion import Expansion
+from tlcomm_core.ltl.formula import Formula, atoms
+from tlcomm_core.ltl.guard import Cube, simplified
+from tlcomm_core.ltl.normal_form import negation_normal_form
+from tlcomm_core.ltl.reduction import Edge, Graph, degeneralized, reduced
+
+__all__ = ["tableau_automaton"]
+
+
+def tableau_automaton(formula: Formula) -> BuchiAutomaton:
+    """Return a Büchi automaton that accepts exactly the words that satisfy a formula.
+
+    Every state but the initial one of an unsatisfiable formula lies on an accepting run.
+
+    Source: Gerth, Peled, Vardi and Wolper, "Simple on-the-fly automatic verification of linear
+    temporal logic", 1995; acceptance on transitions as in Couvreur, "On-the-fly verification of
+    linear temporal logic", 1999.
+    Cost: exponential in the formula in the worst case, as the problem is.
+    """
+    expansion = Expansion(negation_normal_form(formula))
+    graph = reduced(degeneralized(reduced(_explored(expansion))))
+    rows = tuple(_transitions(expansion, row) for row in graph.rows)
+    return BuchiAutomaton(atoms(formula), 0, rows, Construction.TABLEAU)
+
+
+def _explored(expansion: Expansion) -> Graph:
+    """Return the generalized automaton of all sets of obligations that can be reached."""
+    if expansion.start is None:
+        return Graph(((),), 0)
+    number = {expansion.start: 0}
+    pending = [expansion.start]
+    found: list[list[tuple[int, int, int]]] = []
+    for obligations in pending:
+        row = []
+        for term in expansion.terms(obligations):
+            rest = expansion.obligations(term)
+            if rest not in number:
+                number[rest] = len(number)
+                pending.append(rest)
+            row.append((expansion.literals(term), number[rest], expansion.postponed(term)))
+        found.append(row)
+    return _marked(found)
+
+
+def _marked(found: list[list[tuple[int, int, int]]]) -> Graph:
+    """Turn "postpones" into marks "doesn't postpone", for eventualities ever postponed."""
+    ever = 0
+    for row in found:
+        for _, _, postponed in row:
+            ever |= postponed
+    places = [place for place in range(ever.bit_length()) if ever >> place & 1]
+
+    def marks(postponed: int) -> int:
+        return sum(1 << index for index, place in enumerate(places) if not postponed >> place & 1)
+
+    rows = (tuple(Edge(cube, target, marks(late)) for cube, target, late in row) for row in found)
+    return Graph(tuple(rows), len(places))
+
+
+def _transitions(expansion: Expansion, row: tuple[Edge, ...]) -> tuple[Transition, ...]:
+    """Join the edges with the same target and acceptance into one guarded transition."""
+    cubes: dict[tuple[int, int], list[Cube]] = {}
+    for edge in row:
+        cubes.setdefault((edge.target, edge.marks), []).append(expansion.cube(edge.literals))
+    return tuple(
+        Transition(simplified(group), target, accepting=marks == 1)
+        for (target, marks), group in cubes.items()
+    )

@@ -1,0 +1,57 @@
+"""What is run: the options that both harnesses share, and the world of a scenario.
+
+``Mission``       a scenario with its options
+``create_world``  the world of a scenario
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tlcomm_core.scenario.site import Site
+from tlcomm_core.units import nanoseconds
+from tlcomm_core.world.lockstep import StopRule
+from tlcomm_core.world.world import Body, Noise, World
+
+__all__ = ["Mission", "create_world"]
+
+
+@dataclass(frozen=True, slots=True)
+class Mission:
+    """A run to be.
+
+    Attributes:
+        site: the scenario.
+        seed: of all that is random in the world.
+        rounds: the run ends D_c after the meeting of this round; or ``None``.
+        until_s: the run ends at this simulated time; or ``None``.
+    """
+
+    site: Site
+    seed: int
+    rounds: int | None
+    until_s: float | None
+
+    @property
+    def stop(self) -> StopRule:
+        """When the run is over; the meeting at t = 0 is round 0."""
+        return StopRule(
+            meetings=None if self.rounds is None else self.rounds + 1,
+            until_ns=None if self.until_s is None else nanoseconds(self.until_s),
+        )
+
+
+def create_world(site: Site, seed: int) -> World:
+    """Return the scenario's world at t = 0."""
+    scenario = site.scenario
+    bodies = []
+    for name in scenario.agents:
+        drive = scenario.drive_of(name)
+        bodies.append(Body(name, site.start_of(name), drive.linear_mps, drive.angular_radps))
+    return World(
+        bodies,
+        site.grid,
+        scenario.communication.range_m,
+        Noise(scenario.noise.linear, scenario.noise.angular),
+        np.random.default_rng(seed),
+    )

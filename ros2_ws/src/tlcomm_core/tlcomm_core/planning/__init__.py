@@ -1,0 +1,1 @@
+"""From a task to a local plan: transition system, product, lasso (Section IV-A)."""

@@ -1,0 +1,54 @@
+"""The local plan: a prefix and an endlessly repeated suffix of steps.
+
+``PlanStep``   one state of the lasso: be in a region, perform an action or none
+``LocalPlan``  the lasso, addressed by one running index through prefix and suffix
+"""
+
+from dataclasses import dataclass
+
+__all__ = ["LocalPlan", "PlanStep"]
+
+
+@dataclass(frozen=True, slots=True)
+class PlanStep:
+    """One composed state ⟨π, a⟩ of the plan.
+
+    Attributes:
+        region: region to be in.
+        location: the region's location (index into the grid's free cells).
+        action: action performed there, or ``None`` for a_0: to have arrived is all.
+        duration_s: time that the step takes once there (0 for a mere visit, the idle time for
+            staying put without an action).
+        satisfies: whether completing this step takes an accepting transition of the task's
+            automaton; for □◇φ^s it completes φ^s.
+    """
+
+    region: str
+    location: int
+    action: str | None
+    duration_s: float
+    satisfies: bool
+
+
+@dataclass(frozen=True, slots=True)
+class LocalPlan:
+    """An optimal accepting run τ = τ_pre (τ_suf)^ω of the product (Section IV-A).
+
+    Attributes:
+        prefix: steps executed once.
+        suffix: steps repeated for ever, at least one of which satisfies.
+        prefix_s: time from the start pose to the end of the prefix.
+        suffix_s: time of one pass through the suffix, the makespan ξ_i for □◇φ^s whose suffix
+            satisfies once.
+    """
+
+    prefix: tuple[PlanStep, ...]
+    suffix: tuple[PlanStep, ...]
+    prefix_s: float
+    suffix_s: float
+
+    def step(self, index: int) -> PlanStep:
+        """Return step number ``index`` ≥ 0, counted on through every pass of the suffix."""
+        if index < len(self.prefix):
+            return self.prefix[index]
+        return self.suffix[(index - len(self.prefix)) % len(self.suffix)]

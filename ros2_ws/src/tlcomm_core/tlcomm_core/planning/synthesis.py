@@ -1,0 +1,122 @@
+"""From a task to the optimal local plan, or to the reason why there is none.
+
+- ``plan_task``   the plan for a formula
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from tlcomm_core.errors import PlanningError, UnreachableTaskError, UnsatisfiableTaskError
+from tlcomm_core.ltl import BuchiAutomaton, Cube, Formula, Guard, translate
+from tlcomm_core.planning import product as products
+from tlcomm_core.planning.lasso import optimal_lasso
+from tlcomm_core.planning.plan import LocalPlan, PlanStep
+from tlcomm_core.planning.product import Product
+from tlcomm_core.planning.transition_system import TransitionSystem
+
+__all__ = ["plan_task"]
+
+
+def plan_task(formula: Formula, system: TransitionSystem) -> LocalPlan:
+    """Return the optimal local plan of an agent for its task.
+
+    The plan's steps are those of the transition system; the initial state, whose label the word
+    begins with, is none of them. The suffix begins where the prefix enters the best cycle first,
+    so its satisfying step needn't be the last.
+
+    Args:
+        formula: the task.
+        system: the agent's transition system.
+
+    Raises:
+        UnsatisfiableTaskError: no word satisfies the formula.
+        UnreachableTaskError: some word does, but none of a run of the system.
+
+    Source: Section IV-A.
+    Cost: see ``translate``, ``product.build`` and ``optimal_lasso``.
+    """
+    automaton = translate(formula)
+    product = products.build(system, automaton)
+    lasso = optimal_lasso(product)
+    if lasso is None:
+        raise _failure(formula, automaton, system)
+    prefix = _steps(lasso.prefix, product, system, automaton)
+    suffix = _steps(lasso.suffix, product, system, automaton)
+    return LocalPlan(
+        prefix=prefix,
+        suffix=suffix,
+        prefix_s=_total_s(lasso.prefix, product, system),
+        suffix_s=_total_s(lasso.suffix, product, system),
+    )
+
+
+def _steps(
+    edges: Sequence[int], product: Product, system: TransitionSystem, automaton: BuchiAutomaton
+) -> tuple[PlanStep, ...]:
+    return tuple(_step(edge, product, system, automaton) for edge in edges)
+
+
+def _step(
+    edge: int, product: Product, system: TransitionSystem, automaton: BuchiAutomaton
+) -> PlanStep:
+    step = int(product.step[edge])
+    location = system.states[system.target[step]].location
+    return PlanStep(
+        region=_region(system.regions[location], automaton.atoms),
+        location=location,
+        action=system.actions[system.action[step]],
+        duration_s=float(system.stay_s[step]),
+        satisfies=bool(product.accepting[edge]),
+    )
+
+
+def _region(names: Sequence[str], atoms: Sequence[str]) -> str:
+    """Return the first of a place's regions that the task names, else the first, else ""."""
+    return next((name for name in names if name in atoms), names[0] if names else "")
+
+
+def _total_s(edges: Sequence[int], product: Product, system: TransitionSystem) -> float:
+    """Return the time of some edges, added up in the order in which they are executed."""
+    steps = product.step[list(edges)]
+    return float(sum((system.drive_s[steps] + system.stay_s[steps]).tolist()))
+
+
+def _failure(
+    formula: Formula, automaton: BuchiAutomaton, system: TransitionSystem
+) -> PlanningError:
+    """Return the error that says why no run is accepting."""
+    if automaton.is_empty():
+        return UnsatisfiableTaskError(f"task {str(formula)!r} contradicts itself: no word fits it")
+    possible = frozenset[str]().union(*system.labels)
+    never = [atom for atom in automaton.atoms if atom not in possible]
+    if _without(automaton, never).is_empty():
+        each = [atom for atom in never if _without(automaton, [atom]).is_empty()]
+        names = ", ".join(repr(atom) for atom in each or never)
+        return UnreachableTaskError(
+            f"task {str(formula)!r} can't be done from the start: never true there: {names}"
+        )
+    if _limited_to(automaton, system.labels).is_empty():
+        reason = "what it wants true or false together never is, in any region that can be reached"
+    else:
+        reason = "no way through the regions visits them in an order that it allows"
+    return UnreachableTaskError(f"task {str(formula)!r} can't be done from the start: {reason}")
+
+
+def _without(automaton: BuchiAutomaton, never: Sequence[str]) -> BuchiAutomaton:
+    """Return the automaton for words in which some atoms are always false."""
+    return _with_cubes(automaton, lambda cube: cube.required.isdisjoint(never))
+
+
+def _limited_to(automaton: BuchiAutomaton, labels: Sequence[frozenset[str]]) -> BuchiAutomaton:
+    """Return the automaton for words of some labels."""
+    return _with_cubes(automaton, lambda cube: any(cube.holds(label) for label in labels))
+
+
+def _with_cubes(automaton: BuchiAutomaton, keeps: Callable[[Cube], bool]) -> BuchiAutomaton:
+    """Return the automaton with some cubes of its guards alone, and no edge without any."""
+    thinned = (
+        (replace(edge, guard=Guard(tuple(filter(keeps, edge.guard.cubes)))) for edge in edges)
+        for edges in automaton.transitions
+    )
+    transitions = tuple(tuple(edge for edge in edges if edge.guard.cubes) for edges in thinned)
+    return replace(automaton, transitions=transitions)

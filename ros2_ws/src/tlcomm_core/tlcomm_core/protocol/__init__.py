@@ -1,0 +1,1 @@
+"""The coordination protocol: what agents say, and the state machine that says it."""

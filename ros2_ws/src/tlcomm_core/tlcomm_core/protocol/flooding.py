@@ -1,0 +1,71 @@
+"""Knowledge that grows: items flooded through neighbours until everyone holds them all.
+
+``Flood``  what this agent holds, and what it knows that its neighbours hold
+
+Both halves of the protocol that end when *everybody* is known — who is present, who has
+confirmed — are this: a set that only grows, told to neighbours, relayed by them. An item reaches
+every member of a connected team after at most as many exchanges as the graph's diameter, whatever
+the order, and hearing one twice changes nothing; so late, duplicate and reordered messages are
+harmless by construction, and loss is mended by telling a neighbour again what it doesn't show.
+"""
+
+from collections.abc import Iterable, Mapping
+from typing import Generic, TypeVar
+
+__all__ = ["Flood"]
+
+Item = TypeVar("Item")
+
+
+class Flood(Generic[Item]):
+    """One agent's part in flooding one item per member of the team."""
+
+    def __init__(self, team: Iterable[str], own: str, item: Item) -> None:
+        """Begin with nothing but one's own item."""
+        self._team = frozenset(team)
+        self._held: dict[str, Item] = {own: item}
+        self._shown: dict[str, frozenset[str]] = {}
+
+    @property
+    def held(self) -> Mapping[str, Item]:
+        """The items held, by their owners."""
+        return self._held
+
+    @property
+    def known(self) -> tuple[str, ...]:
+        """Owners of the items held, sorted."""
+        return tuple(sorted(self._held))
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether every member's item is held."""
+        return len(self._held) == len(self._team)
+
+    def learn(self, sender: str, known: Iterable[str], items: Mapping[str, Item]) -> frozenset[str]:
+        """Take in what a neighbour told.
+
+        Args:
+            sender: the neighbour.
+            known: owners of the items that it holds; what it showed before isn't forgotten.
+            items: the items told. Of an item held already, the first version stays.
+
+        Returns:
+            Owners of the items that are new here.
+        """
+        self._shown[sender] = self._shown.get(sender, frozenset()).union(known)
+        fresh = frozenset(items) - self._held.keys()
+        for owner in sorted(fresh):
+            self._held[owner] = items[owner]
+        return fresh
+
+    def lacking(self, sender: str) -> frozenset[str]:
+        """Return owners of the items held here that a neighbour hasn't shown to hold."""
+        return frozenset(self._held) - self._shown.get(sender, frozenset())
+
+    def lacking_anywhere(self) -> frozenset[str]:
+        """Return owners of the items that some neighbour heard so far hasn't shown to hold."""
+        return frozenset().union(*(self.lacking(sender) for sender in self._shown))
+
+    def is_shown_complete_by(self, neighbours: Iterable[str]) -> bool:
+        """Return whether each of ``neighbours`` has shown that it holds every member's item."""
+        return all(self._shown.get(name, frozenset()) >= self._team for name in neighbours)

@@ -1,0 +1,266 @@
+"""How a team that meets plans its next meeting: one agent's state machine.
+
+``Negotiation``  from the arrival at a place of meeting to the agreement on the next one
+``Phase``        where it stands
+``Rounds``       what it needs of the world: the round problem that offers pose
+
+The phases, in order; each ends by what was *heard*, never by a guess about others:
+
+GATHERING   Everyone floods its offer. Who holds all members' offers knows that the team is
+            present, and t_c. All then pose the same round problem and compute the same S⁰.
+            (``gathering``)
+IMPROVING   Algorithm 1 over the meeting graph, which is known to all from the offers' places.
+            (``improving``, ``consensus``)
+CONFIRMING  The search is over; everyone floods that it holds the result. (``confirming``)
+AGREED      All confirmations are known: the team strategy is held as agreed.
+
+Which messages matter in which phase (rows: what is heard of the round being planned):
+
+              GATHERING      IMPROVING      CONFIRMING     AGREED
+PlanOffer     learn, relay   answer         answer         answer
+BestResponse  keep           exchange       late           late
+Confirmation  keep           keep           learn, relay   answer
+
+*keep*: a neighbour whose phase ended may be one ahead, since what ended it may reach this agent
+only later; what it says is taken in when the own phase follows. *answer*: the sender may lack what
+ends its phase. Of another round: late or early. From outside the team: foreign. Whatever is
+malformed or contradicts what was heard before changes nothing.
+
+Safety: an agent confirms one team strategy per round only, and holds it as agreed only when all
+members have confirmed the same; so no two agents ever hold different strategies for one round.
+
+Liveness: what a neighbour may still need is repeated every ``retry_s`` until its messages show
+that it is past needing it. An offer or a confirmation is shown by being relayed, an exchange of
+the consensus by the neighbour's next one. So while the team stays connected, each phase ends.
+"""
+
+import math
+from collections.abc import Sequence
+from enum import Enum
+from typing import Final, Protocol
+
+import numpy as np
+
+from tlcomm_core.game.problem import RoundProblem
+from tlcomm_core.game.strategy import TeamStrategy
+from tlcomm_core.protocol.actions import Action, CountIgnored, HoldStrategy, SendMessage
+from tlcomm_core.protocol.confirming import Confirming
+from tlcomm_core.protocol.gathering import Gathering
+from tlcomm_core.protocol.improving import Improving
+from tlcomm_core.protocol.messages import (
+    BestResponse,
+    Confirmation,
+    MemberOffer,
+    Message,
+    PlanOffer,
+)
+from tlcomm_core.protocol.reception import Reception
+from tlcomm_core.protocol.team import Team
+from tlcomm_core.world.radio import diameter, links
+
+__all__ = ["Negotiation", "Phase", "Rounds"]
+
+# A neighbour is one phase ahead at the most; it says one thing per kind and exchange there.
+_KEPT_PER_MEMBER: Final = 4
+
+
+class Phase(Enum):
+    """Where a negotiation stands."""
+
+    GATHERING = "gathering"
+    IMPROVING = "improving"
+    CONFIRMING = "confirming"
+    AGREED = "agreed"
+
+
+class Rounds(Protocol):
+    """What a negotiation needs to know of the world."""
+
+    def is_sound(self, offer: MemberOffer) -> bool:
+        """Return whether a round problem can be posed with a peer's offer."""
+
+    def problem(
+        self, round_: int, departure_s: float, offers: Sequence[MemberOffer]
+    ) -> RoundProblem:
+        """Return the round problem that the members' offers, sorted by agent, pose."""
+
+
+class Negotiation:
+    """One agent's part in planning one round.
+
+    ``hear`` only takes in; ``proceed`` says whatever follows. So however many messages arrive at
+    one instant, and in whatever order, one answer is given to all of them.
+    """
+
+    def __init__(self, own: MemberOffer, round_: int, team: Team, rounds: Rounds) -> None:
+        """Prepare to plan a round.
+
+        Args:
+            own: this agent's offer, made at the meeting of ``round_`` − 1.
+            round_: the round to plan, r ≥ 1.
+            team: the team.
+            rounds: poses round problems.
+        """
+        self._own = own.agent
+        self._round = round_
+        self._team = team
+        self._rounds = rounds
+        self._gathering = Gathering(own, round_, team, rounds.is_sound)
+        self._improving: Improving | None = None
+        self._confirming: Confirming | None = None
+        self._agreed: TeamStrategy | None = None
+        self._neighbours: frozenset[str] = frozenset()
+        self._kept: list[BestResponse | Confirmation] = []
+        self._retry_s = team.retry_s
+        self._next_need_s = math.inf
+
+    @property
+    def round(self) -> int:
+        """The round that is being planned."""
+        return self._round
+
+    @property
+    def phase(self) -> Phase:
+        """Where the negotiation stands."""
+        if self._agreed is not None:
+            return Phase.AGREED
+        if self._confirming is not None:
+            return Phase.CONFIRMING
+        return Phase.GATHERING if self._improving is None else Phase.IMPROVING
+
+    @property
+    def meeting_s(self) -> float | None:
+        """t_c of the meeting under way, once the whole team is known to be present."""
+        return self._gathering.meeting_s if self._gathering.is_complete else None
+
+    @property
+    def agreed(self) -> TeamStrategy | None:
+        """The team strategy, once all are known to have confirmed it."""
+        return self._agreed
+
+    @property
+    def next_need_s(self) -> float:
+        """When ``proceed`` must be called again, whatever is heard until then; may be inf."""
+        return self._next_need_s
+
+    def hear(self, message: Message) -> tuple[Action, ...]:
+        """Take in a message; what follows from it is said by ``proceed``."""
+        reception = self._receive(message)
+        return () if reception is Reception.ACCEPTED else (CountIgnored(reception.value),)
+
+    def proceed(self, now_s: float) -> tuple[Action, ...]:
+        """Go as far as what was heard allows, and repeat what may have been lost.
+
+        Raises:
+            InfeasibleRoundError: no admissible meeting exists in the round's window.
+        """
+        was_agreed = self._agreed is not None
+        messages = self._advance()
+        if messages:
+            self._retry_s = self._team.retry_s
+        elif now_s >= self._next_need_s:
+            messages = self._repetitions()
+        if messages:
+            self._next_need_s = now_s + self._retry_s
+        if self._is_settled():
+            self._next_need_s = math.inf
+        actions: list[Action] = [SendMessage(message) for message in messages]
+        if self._agreed is not None and not was_agreed:
+            actions.append(HoldStrategy(self._agreed))
+        return tuple(actions)
+
+    def _receive(self, message: Message) -> Reception:
+        if message.sender not in self._team.members or message.sender == self._own:
+            return Reception.FOREIGN
+        if message.round != self._round:
+            return Reception.LATE if message.round < self._round else Reception.EARLY
+        match message:
+            case PlanOffer():
+                return self._gathering.hear(message)
+            case BestResponse():
+                if self._improving is None:
+                    return self._keep(message)
+                return Reception.LATE if self._confirming else self._improving.hear(message)
+            case Confirmation():
+                return self._confirming.hear(message) if self._confirming else self._keep(message)
+
+    def _keep(self, message: BestResponse | Confirmation) -> Reception:
+        if message in self._kept or len(self._kept) >= _KEPT_PER_MEMBER * len(self._team.members):
+            return Reception.DUPLICATE
+        self._kept.append(message)
+        return Reception.ACCEPTED
+
+    def _take_kept(self) -> None:
+        kept, self._kept = self._kept, []
+        for message in kept:
+            self._receive(message)
+
+    def _advance(self) -> list[Message]:
+        messages: list[Message] = []
+        if (offer := self._gathering.owed()) is not None:
+            messages.append(offer)
+        if self._improving is None and self._gathering.is_complete:
+            self._improving = self._begin_improving()
+            self._take_kept()
+        if self._improving is not None and self._confirming is None:
+            messages += self._improving.owed()
+            if (result := self._improving.result) is not None:
+                self._confirming = Confirming(
+                    self._own, self._team.members, self._improving.iteration, result
+                )
+                self._take_kept()
+        if self._confirming is not None:
+            if (confirmation := self._confirming.owed()) is not None:
+                messages.append(confirmation)
+            if self._confirming.is_complete:
+                self._agreed = self._confirming.strategy
+        return messages
+
+    def _begin_improving(self) -> Improving:
+        offers = self._gathering.offers
+        departure_s = self._gathering.meeting_s + self._team.duration_s
+        edges, exchanges = _meeting_graph(offers, self._team)
+        names = [offer.agent for offer in offers]
+        own = names.index(self._own)
+        self._neighbours = frozenset(names[i + j - own] for i, j in edges if own in (i, j))
+        return Improving(
+            self._own,
+            self._rounds.problem(self._round, departure_s, offers),
+            self._neighbours,
+            exchanges,
+            self._team.max_iterations,
+        )
+
+    def _repetitions(self) -> list[Message]:
+        if self._improving is None:
+            # Members may take most of a window to arrive: ask ever more rarely until something new.
+            self._retry_s = min(2.0 * self._retry_s, self._team.patience_s)
+            return [self._gathering.repetition()]
+        if self._confirming is None:
+            return [*self._improving.unsuperseded]
+        return [*self._improving.unsuperseded, self._confirming.repetition()]
+
+    def _is_settled(self) -> bool:
+        """Return whether no neighbour can need anything any more."""
+        return self._confirming is not None and self._confirming.is_shown_complete_by(
+            self._neighbours
+        )
+
+
+def _meeting_graph(
+    offers: Sequence[MemberOffer], team: Team
+) -> tuple[tuple[tuple[int, int], ...], int]:
+    """Return the links that exchanges wait for, and how many exchanges reach everyone.
+
+    These are the links that hold although both ends are off by their tolerance: a pair reported
+    exactly R apart may hear each other or not. Only a team that isn't connected by such links, as
+    at its start it may not be, relies on all links within R.
+    """
+    places_m = np.array([(offer.x_m, offer.y_m) for offer in offers])
+    for range_m in (team.planned_range_m, team.range_m):
+        edges = links(places_m, range_m)
+        hops = diameter(len(offers), edges)
+        if hops is not None:
+            return edges, max(1, hops)
+    # All heard each other, so their reported poses are off: N − 1 exchanges suffice on any graph.
+    return edges, max(1, len(offers) - 1)

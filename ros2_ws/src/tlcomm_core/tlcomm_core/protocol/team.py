@@ -1,0 +1,41 @@
+"""What every member knows of the team beforehand.
+
+``Team``  names, radio range, meeting windows, and how often unanswered messages are repeated
+"""
+
+from dataclasses import dataclass
+
+__all__ = ["Team"]
+
+
+@dataclass(frozen=True, slots=True)
+class Team:
+    """The team's common ground.
+
+    Attributes:
+        members: all agents' names.
+        range_m: R, within which two members hear each other.
+        planned_range_m: within which they do although each may be off by its tolerance.
+        period_s: T_c.
+        duration_s: D_c.
+        retry_s: a message not known to be superseded is repeated after this time.
+        patience_s: while members are missing, repetitions become rarer up to this interval.
+        max_iterations: K of Algorithm 1.
+    """
+
+    members: frozenset[str]
+    range_m: float
+    planned_range_m: float
+    period_s: float
+    duration_s: float
+    retry_s: float = 0.1
+    patience_s: float = 1.6
+    max_iterations: int = 1000
+
+    def opens_s(self, round_: int) -> float:
+        """Return when a round's window opens, r·T_c."""
+        return round_ * self.period_s
+
+    def window_s(self, round_: int) -> tuple[float, float]:
+        """Return a round's window [r·T_c, (r+1)·T_c)."""
+        return self.opens_s(round_), self.opens_s(round_ + 1)

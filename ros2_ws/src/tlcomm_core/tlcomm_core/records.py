@@ -1,0 +1,86 @@
+"""What a run leaves behind, as values: the same from a bag and from memory.
+
+``TaskRecord``      an agent's ``TaskEvent`` with its time
+``StrategyRecord``  a team strategy that an agent holds as agreed
+``RoundTiming``     what agreeing on a round took, in wall time
+``RunRecords``      all of it, with the world's observations
+``event_log``       the canonical text of a run's decisions, for comparing runs
+"""
+
+import json
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass, field
+
+from tlcomm_core.agent.actions import TaskEvent
+from tlcomm_core.game.strategy import TeamStrategy
+from tlcomm_core.world.observation import Connectivity, Odometry
+
+__all__ = ["RoundTiming", "RunRecords", "StrategyRecord", "TaskRecord", "event_log"]
+
+
+@dataclass(frozen=True, slots=True)
+class TaskRecord:
+    """A task event."""
+
+    stamp_ns: int
+    agent: str
+    event: TaskEvent
+
+
+@dataclass(frozen=True, slots=True)
+class StrategyRecord:
+    """A team strategy held as agreed."""
+
+    stamp_ns: int
+    agent: str
+    strategy: TeamStrategy
+
+
+@dataclass(frozen=True, slots=True)
+class RoundTiming:
+    """Wall time that one agent spent on one round.
+
+    Attributes:
+        agent: whose.
+        round: the round agreed on.
+        solve_wall_s: its own computing, from the tables to the equilibrium.
+        offered_wall_s: when it first offered its plan (seconds of the wall clock's epoch).
+        agreed_wall_s: when it held the strategy as agreed (the same clock).
+    """
+
+    agent: str
+    round: int
+    solve_wall_s: float
+    offered_wall_s: float
+    agreed_wall_s: float
+
+
+@dataclass(slots=True)
+class RunRecords:
+    """Everything that results and checks are computed from, each list in order of time."""
+
+    tasks: list[TaskRecord] = field(default_factory=list)
+    strategies: list[StrategyRecord] = field(default_factory=list)
+    timings: list[RoundTiming] = field(default_factory=list)
+    odometry: list[Odometry] = field(default_factory=list)
+    connectivity: list[Connectivity] = field(default_factory=list)
+    messages_sent: dict[str, int] = field(default_factory=dict)
+
+
+def event_log(records: RunRecords) -> Iterator[str]:
+    """Yield one JSON line per decision, ordered by time and agent.
+
+    Task events and held strategies are all that agents decide; equal logs mean equal runs. Within
+    one agent and instant the agent's own order is kept, so the log doesn't depend on the order in
+    which different agents' messages arrived at a recorder.
+    """
+    rows = [
+        (record.stamp_ns, record.agent, "task", asdict(record.event)) for record in records.tasks
+    ]
+    rows += [
+        (record.stamp_ns, record.agent, "team_strategy", asdict(record.strategy))
+        for record in records.strategies
+    ]
+    rows.sort(key=lambda row: row[:3])
+    for stamp_ns, agent, kind, value in rows:
+        yield json.dumps({"stamp_ns": stamp_ns, "agent": agent, "type": kind, **value})

@@ -1,0 +1,213 @@
+"""What a scenario's fields must mean together.
+
+``Finding``  one thing wrong, and its place in the file
+``check``    all findings of a scenario
+"""
+
+import difflib
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from scipy.sparse.csgraph import connected_components
+
+from tlcomm_core.errors import FormulaError
+from tlcomm_core.ltl.formula import atoms
+from tlcomm_core.ltl.parser import explain, parse
+from tlcomm_core.scenario.document import Place
+from tlcomm_core.scenario.model import Scenario, Workspace
+from tlcomm_core.scenario.site import grid_of, region_location
+from tlcomm_core.workspace.grid import Grid
+
+__all__ = ["MAX_CELLS", "Finding", "check", "did_you_mean"]
+
+MAX_CELLS: Final = 1_000_000
+# Names of topics and nodes beside which an agent's namespace would be taken for something else.
+_TAKEN_NAMES: Final = frozenset(
+    {"clock", "connectivity", "parameter_events", "recorder", "rosout", "sim", "tf", "tf_static"}
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """Something wrong: where, what was found, and what was expected."""
+
+    place: Place
+    what: str
+
+
+def check(scenario: Scenario) -> list[Finding]:
+    """Return what is wrong with a scenario whose fields are well-formed; empty if nothing.
+
+    Cost: O(regions · Z + agents²).
+    """
+    findings = [*_timing(scenario), *_extent(scenario.workspace), *_names(scenario)]
+    if findings:
+        return findings
+    grid = grid_of(scenario.workspace)
+    findings += _regions(scenario.workspace, grid)
+    findings += _starts(scenario, grid)
+    findings += _tasks(scenario)
+    if findings:
+        return findings
+    return [*_connectivity(scenario), *_reachability(scenario, grid)]
+
+
+def did_you_mean(name: str, known: Collection[str]) -> str:
+    """Return what to use instead of an unknown name."""
+    close = difflib.get_close_matches(name, known, n=1)
+    if close:
+        return f"did you mean {close[0]!r}?"
+    return f"expected one of {', '.join(sorted(known)[:20])}"
+
+
+def _timing(scenario: Scenario) -> Iterator[Finding]:
+    communication = scenario.communication
+    if communication.duration_s >= communication.period_s:
+        yield Finding(
+            ("communication", "duration_s"),
+            f"{communication.duration_s!r} isn't shorter than period_s"
+            f" ({communication.period_s!r}); expected D_c < T_c",
+        )
+    if communication.hop_latency_s >= communication.duration_s:
+        yield Finding(
+            ("communication", "hop_latency_s"),
+            f"{communication.hop_latency_s!r} isn't shorter than duration_s"
+            f" ({communication.duration_s!r})",
+        )
+    tolerance_m = scenario.position_tolerance_m
+    if communication.range_m <= 2.0 * tolerance_m:
+        yield Finding(
+            ("communication", "range_m"),
+            f"{communication.range_m!r} isn't more than twice the largest position_tolerance_m"
+            f" ({tolerance_m!r})",
+        )
+
+
+def _extent(workspace: Workspace) -> Iterator[Finding]:
+    columns, rows = (length_m / workspace.cell_m for length_m in workspace.size_m)
+    if min(columns, rows) < 1.0 or columns * rows > MAX_CELLS:
+        yield Finding(
+            ("workspace", "cell_m"),
+            f"{workspace.cell_m!r} makes {columns:.6g} x {rows:.6g} cells of size_m;"
+            f" expected at least 1 x 1 and at most {MAX_CELLS} in all",
+        )
+    for index, (x_min, y_min, x_max, y_max) in enumerate(workspace.obstacles_m):
+        if x_min >= x_max or y_min >= y_max:
+            yield Finding(
+                ("workspace", "obstacles_m", index),
+                f"{[x_min, y_min, x_max, y_max]!r} is no box;"
+                " expected x_min, y_min, x_max, y_max with min < max",
+            )
+
+
+def _names(scenario: Scenario) -> Iterator[Finding]:
+    regions = scenario.workspace.regions
+    places: list[Place] = [("workspace", "regions", name) for name in regions]
+    places += [("actions", name) for name in scenario.actions]
+    for agent, fields in scenario.agents.items():
+        places += [("agents", agent, "actions", name) for name in fields.actions]
+        if agent.lower() in _TAKEN_NAMES:
+            yield Finding(("agents", agent), f"the name {agent!r} is taken; choose another")
+    for place in places:
+        name = str(place[-1])
+        if not _is_atom(name):
+            yield Finding(place, f"the name {name!r} is an operator of formulas; choose another")
+        if place[0] != "workspace" and name in regions:
+            yield Finding(place, f"the name {name!r} is a region's too; choose another")
+
+
+def _is_atom(name: str) -> bool:
+    try:
+        return name in atoms(parse(name))
+    except FormulaError:
+        return False
+
+
+def _regions(workspace: Workspace, grid: Grid) -> Iterator[Finding]:
+    for name, region in workspace.regions.items():
+        place = ("workspace", "regions", name)
+        if not grid.contains(*region.at_m):
+            yield Finding(
+                (*place, "at_m"), f"{_point(region.at_m)} lies outside the workspace {_area(grid)}"
+            )
+        elif region_location(grid, region) is None:
+            yield Finding(
+                place,
+                f"no free cell's centre lies within {region.radius_m!r} m of"
+                f" {_point(region.at_m)}; move it or make radius_m larger",
+            )
+
+
+def _starts(scenario: Scenario, grid: Grid) -> Iterator[Finding]:
+    for name, agent in scenario.agents.items():
+        x_m, y_m, _ = agent.start
+        place = ("agents", name, "start")
+        if not grid.contains(x_m, y_m):
+            what = f"lies outside the workspace {_area(grid)}"
+        elif _covered(grid, x_m, y_m):
+            what = "lies inside an obstacle; choose a free point"
+        elif grid.location_at(x_m, y_m) is None:
+            what = "lies in a cell that an obstacle covers in part; choose a point in a free cell"
+        else:
+            continue
+        yield Finding(place, f"{_point((x_m, y_m))} {what}")
+
+
+def _tasks(scenario: Scenario) -> Iterator[Finding]:
+    for name, agent in scenario.agents.items():
+        place = ("agents", name, "task")
+        known = {*scenario.workspace.regions, *scenario.actions_of(name)}
+        try:
+            unknown = sorted({*atoms(parse(agent.task))} - known)
+        except FormulaError as error:
+            yield Finding(place, explain(error))
+            continue
+        for atom in unknown:
+            yield Finding(place, f"unknown region or action {atom!r}; {did_you_mean(atom, known)}")
+
+
+def _connectivity(scenario: Scenario) -> Iterator[Finding]:
+    names = list(scenario.agents)
+    points_m = np.array([scenario.agents[name].start[:2] for name in names])
+    offsets_m = points_m[:, None] - points_m[None]
+    linked = np.hypot(offsets_m[..., 0], offsets_m[..., 1]) <= scenario.communication.range_m
+    _, labels = connected_components(linked, directed=False)
+    for name, label in zip(names, labels.tolist(), strict=True):
+        if label != labels[0]:
+            yield Finding(
+                ("agents", name, "start"),
+                f"{_point(scenario.agents[name].start[:2])} isn't connected to {names[0]!r} by"
+                f" links of at most range_m ({scenario.communication.range_m!r});"
+                " the team must start connected",
+            )
+
+
+def _reachability(scenario: Scenario, grid: Grid) -> Iterator[Finding]:
+    regions = scenario.workspace.regions
+    home = {name: region_location(grid, region) for name, region in regions.items()}
+    for name, agent in scenario.agents.items():
+        start = grid.location_at(*agent.start[:2])
+        for region in sorted(home.keys() & atoms(parse(agent.task))):
+            if grid.components[start] != grid.components[home[region]]:
+                yield Finding(
+                    ("agents", name, "task"),
+                    f"region {region!r} can't be reached from the start"
+                    f" {_point(agent.start[:2])}: obstacles close every way",
+                )
+
+
+def _covered(grid: Grid, x_m: float, y_m: float) -> bool:
+    x_min, y_min, x_max, y_max = grid.boxes.T
+    inside = (x_min <= x_m) & (x_m <= x_max) & (y_min <= y_m) & (y_m <= y_max)
+    return bool(inside.any()) and grid.location_at(x_m, y_m) is None
+
+
+def _point(point_m: tuple[float, float]) -> str:
+    return f"{point_m[0]!r}, {point_m[1]!r}"
+
+
+def _area(grid: Grid) -> str:
+    (x_m, y_m), (width_m, height_m) = grid.origin_m, grid.size_m
+    return f"(x {x_m:g} to {x_m + width_m:g}, y {y_m:g} to {y_m + height_m:g})"

@@ -1,0 +1,127 @@
+"""The scenario's fields, their types and ranges, one class per section of the file.
+
+``Scenario`` holds ``Workspace`` (with ``Region``), ``Communication``, ``Drive``, ``Noise`` and
+``Agent`` (with ``DriveOverride``). What fields mean together is checked in ``checks``.
+"""
+
+from typing import Annotated, Final
+
+from pydantic import BaseModel, ConfigDict, Field
+
+__all__ = [
+    "MAX_AGENTS",
+    "MAX_OBSTACLES",
+    "Agent",
+    "Communication",
+    "Drive",
+    "DriveOverride",
+    "Noise",
+    "Region",
+    "Scenario",
+    "Workspace",
+]
+
+MAX_AGENTS: Final = 1000
+MAX_OBSTACLES: Final = 5000
+MAX_REGIONS: Final = 1000
+
+# Far beyond any plant, and small enough that no product of two overflows.
+_HUGE: Final = 1e9
+
+Number = Annotated[float, Field(ge=-_HUGE, le=_HUGE)]
+Positive = Annotated[float, Field(gt=0.0, le=_HUGE)]
+NotNegative = Annotated[float, Field(ge=0.0, le=_HUGE)]
+Share = Annotated[float, Field(ge=0.0, le=1.0)]
+# Valid as a ROS namespace token and as an atom.
+Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*$", max_length=60)]
+Title = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$", max_length=60)]
+
+
+class _Section(BaseModel):
+    model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class Region(_Section):
+    """A disc in which actions can be performed."""
+
+    at_m: tuple[Number, Number]
+    radius_m: Positive
+
+
+class Workspace(_Section):
+    """The rectangle, its cells, obstacles (x_min, y_min, x_max, y_max) and regions."""
+
+    size_m: tuple[Positive, Positive]
+    cell_m: Positive
+    origin_m: tuple[Number, Number] = (0.0, 0.0)
+    obstacles_m: Annotated[
+        tuple[tuple[Number, Number, Number, Number], ...], Field(max_length=MAX_OBSTACLES)
+    ] = ()
+    regions: Annotated[dict[Name, Region], Field(min_length=1, max_length=MAX_REGIONS)]
+
+
+class Communication(_Section):
+    """Radio range R, period T_c and duration D_c of the team's communication."""
+
+    range_m: Positive
+    period_s: Positive
+    duration_s: Positive
+    hop_latency_s: Positive = 0.005
+
+
+class Drive(_Section):
+    """Speeds of an agent, and how close to a point its controller comes."""
+
+    linear_mps: Positive
+    angular_radps: Positive
+    position_tolerance_m: Positive = 0.02
+
+
+class DriveOverride(_Section):
+    """What one agent's drive has different from the team's."""
+
+    linear_mps: Positive | None = None
+    angular_radps: Positive | None = None
+    position_tolerance_m: Positive | None = None
+
+
+class Noise(_Section):
+    """Standard deviations of the seeded factors (around 1) on an agent's actual speeds."""
+
+    linear: Share = 0.0
+    angular: Share = 0.0
+
+
+class Agent(_Section):
+    """Where an agent starts (x, y, yaw), its task, and what it has different from the team."""
+
+    start: tuple[Number, Number, Number]
+    task: str
+    motion: DriveOverride = DriveOverride()
+    actions: dict[Name, NotNegative] = {}
+
+
+class Scenario(_Section):
+    """A whole scenario file."""
+
+    name: Title
+    workspace: Workspace
+    communication: Communication
+    motion: Drive
+    noise: Noise = Noise()
+    actions: Annotated[dict[Name, NotNegative], Field(max_length=MAX_REGIONS)] = {}
+    agents: Annotated[dict[Name, Agent], Field(min_length=1, max_length=MAX_AGENTS)]
+
+    def drive_of(self, agent: str) -> Drive:
+        """Return the drive of an agent, its own fields over the team's."""
+        own = self.agents[agent].motion.model_dump(exclude_none=True)
+        return self.motion.model_copy(update=own)
+
+    def actions_of(self, agent: str) -> dict[str, float]:
+        """Return the durations (s) of an agent's actions, its own over the team's."""
+        return self.actions | self.agents[agent].actions
+
+    @property
+    def position_tolerance_m(self) -> float:
+        """The largest of the agents' position tolerances."""
+        return max(self.drive_of(name).position_tolerance_m for name in self.agents)

@@ -1,0 +1,88 @@
+"""What follows from a scenario and is shared by all that use it.
+
+``Site``             the grid, where the regions are, and each agent's abilities
+``grid_of``          the grid of a workspace
+``region_location``  the location at which a region is visited
+"""
+
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tlcomm_core.geometry import Pose
+from tlcomm_core.scenario.model import Region, Scenario, Workspace
+from tlcomm_core.workspace.grid import Grid
+from tlcomm_core.workspace.travel import Motion
+
+__all__ = ["Site", "grid_of", "region_location"]
+
+
+@dataclass(frozen=True, slots=True)
+class Site:
+    """A checked scenario with its derived objects.
+
+    Attributes:
+        scenario: as loaded.
+        grid: cells and locations.
+        region_location: the location at which each region is visited.
+    """
+
+    scenario: Scenario
+    grid: Grid
+    region_location: MappingProxyType[str, int]
+    _members: tuple[tuple[str, NDArray[np.intp]], ...]
+
+    @classmethod
+    def from_scenario(cls, scenario: Scenario) -> Self:
+        """Derive everything from a scenario that passed its checks. Cost: O(regions · Z)."""
+        grid = grid_of(scenario.workspace)
+        locations: dict[str, int] = {}
+        members: list[tuple[str, NDArray[np.intp]]] = []
+        for name, region in scenario.workspace.regions.items():
+            location = region_location(grid, region)
+            assert location is not None, "checks have refused regions without a free centre"
+            locations[name] = location
+            members.append((name, grid.locations_within(*region.at_m, region.radius_m)))
+        return cls(scenario, grid, MappingProxyType(locations), tuple(members))
+
+    @property
+    def planned_range_m(self) -> float:
+        """Range that meetings are planned with: R less what two controllers may be off."""
+        return self.scenario.communication.range_m - 2.0 * self.scenario.position_tolerance_m
+
+    def regions_at(self, location: int) -> frozenset[str]:
+        """Return the regions whose disc contains a location."""
+        return frozenset(name for name, members in self._members if location in members)
+
+    def motion_of(self, agent: str, segment_allowance_s: float = 0.0) -> Motion:
+        """Return an agent's motion with an allowance per segment."""
+        drive = self.scenario.drive_of(agent)
+        return Motion(drive.linear_mps, drive.angular_radps, segment_allowance_s)
+
+    def action_durations(self, agent: str) -> dict[str, float]:
+        """Return the durations (s) of an agent's actions; fresh."""
+        return self.scenario.actions_of(agent)
+
+    def start_of(self, agent: str) -> Pose:
+        """Return the pose in which an agent starts."""
+        return Pose(*self.scenario.agents[agent].start)
+
+
+def grid_of(workspace: Workspace) -> Grid:
+    """Return the grid of a workspace."""
+    return Grid(workspace.size_m, workspace.cell_m, workspace.obstacles_m, workspace.origin_m)
+
+
+def region_location(grid: Grid, region: Region) -> int | None:
+    """Return the free centre nearest to a region's middle; None if none lies in its disc.
+
+    Ties go to the lowest index.
+    """
+    inside = grid.locations_within(*region.at_m, region.radius_m)
+    if not len(inside):
+        return None
+    offsets = grid.locations_m[inside] - np.array(region.at_m)
+    return int(inside[np.argmin(np.hypot(offsets[:, 0], offsets[:, 1]))])

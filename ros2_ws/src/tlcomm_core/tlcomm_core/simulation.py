@@ -1,0 +1,156 @@
+"""The in-process harness: members and world in lock step, without ROS.
+
+``simulate``   run a mission
+``Simulated``  what it leaves behind
+"""
+
+import time
+from collections import Counter
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import assert_never
+
+from tlcomm_core.agent.actions import (
+    Action,
+    CountIgnored,
+    Drive,
+    HoldStrategy,
+    ReportTask,
+    SendMessage,
+)
+from tlcomm_core.agent.controller import Pacing
+from tlcomm_core.agent.member import Member, create
+from tlcomm_core.agent.timing import TimedMember
+from tlcomm_core.mission import Mission, create_world
+from tlcomm_core.protocol.messages import Message
+from tlcomm_core.records import RunRecords, StrategyRecord, TaskRecord
+from tlcomm_core.units import nanoseconds
+from tlcomm_core.world.lockstep import LockStep, Reply
+from tlcomm_core.world.observation import Connectivity, Observation, Odometry
+
+__all__ = ["Simulated", "simulate"]
+
+
+@dataclass(slots=True)
+class Simulated:
+    """What a simulated run leaves behind.
+
+    Attributes:
+        records: what result and event log are made from.
+        ignored: per reason, how many messages changed nothing.
+        sim_ns: simulated time at the end.
+    """
+
+    records: RunRecords = field(default_factory=RunRecords)
+    ignored: Counter[str] = field(default_factory=Counter)
+    sim_ns: int = 0
+
+
+def simulate(mission: Mission, on_progress: Callable[[int, int], None] | None = None) -> Simulated:
+    """Run a mission in this process.
+
+    Args:
+        mission: what to run.
+        on_progress: called after each instant with the simulated time (ns) and the number of
+            meetings that have ended.
+
+    Raises:
+        PlanningError: an agent's task has no plan.
+        InfeasibleRoundError: the team has no admissible next meeting.
+    """
+    harness = _Harness(mission)
+    while (step := harness.lockstep.next_step()) is not None:
+        harness.show(step.observations)
+        replies = {name: harness.act(name, step.time_ns) for name in step.ticked}
+        harness.show(harness.lockstep.complete(replies))
+        harness.left.sim_ns = step.time_ns
+        if on_progress is not None:
+            on_progress(step.time_ns, harness.lockstep.meetings_ended)
+    return harness.left
+
+
+class _Harness:
+    """The members' shell: carries observations and messages between world and members."""
+
+    def __init__(self, mission: Mission) -> None:
+        scenario = mission.site.scenario
+        self.left = Simulated(RunRecords(messages_sent=dict.fromkeys(scenario.agents, 0)))
+        self._members: dict[str, Member] = {
+            name: create(name, mission.site, Pacing.EVENT) for name in scenario.agents
+        }
+        self._timed = {
+            name: TimedMember(member, time.perf_counter, time.time)
+            for name, member in self._members.items()
+        }
+        self.lockstep = LockStep(
+            create_world(mission.site, mission.seed),
+            tuple(scenario.agents),
+            nanoseconds(scenario.communication.hop_latency_s),
+            mission.stop,
+        )
+
+    def show(self, observations: Iterable[Observation]) -> None:
+        """Let members see what the world shows."""
+        for observation in observations:
+            match observation:
+                case Odometry():
+                    self.left.records.odometry.append(observation)
+                    self._members[observation.agent].see_odometry(
+                        observation.stamp_ns,
+                        observation.pose,
+                        observation.linear_mps,
+                        observation.angular_radps,
+                    )
+                case Connectivity():
+                    self.left.records.connectivity.append(observation)
+                    self._show_connectivity(observation)
+
+    def act(self, name: str, now_ns: int) -> Reply:
+        """Let a member act; return its reply."""
+        actions, timing = self._timed[name].step(now_ns)
+        if timing is not None:
+            self.left.records.timings.append(timing)
+        command = None
+        for action in actions:
+            match action:
+                case Drive(linear_mps, angular_radps):
+                    command = (linear_mps, angular_radps)
+                case _:
+                    self._perform(name, action, now_ns)
+        member = self._members[name]
+        return Reply(
+            next_need_ns=member.next_need_ns,
+            team_messages=self.left.records.messages_sent[name],
+            command=command,
+            meetings_ended=member.meetings_ended,
+        )
+
+    def _perform(self, name: str, action: Action, now_ns: int) -> None:
+        match action:
+            case SendMessage(message):
+                self._broadcast(name, message, now_ns)
+            case ReportTask(event):
+                self.left.records.tasks.append(TaskRecord(now_ns, name, event))
+            case HoldStrategy(strategy):
+                self.left.records.strategies.append(StrategyRecord(now_ns, name, strategy))
+            case CountIgnored(reason):
+                self.left.ignored[reason] += 1
+            case Drive():
+                raise AssertionError("drives are commands, handled by the caller")
+            case _:
+                assert_never(action)
+
+    def _broadcast(self, sender: str, message: Message, now_ns: int) -> None:
+        self.left.records.messages_sent[sender] += 1
+        for name, member in self._members.items():
+            if name != sender:
+                member.receive(message, now_ns)
+
+    def _show_connectivity(self, connectivity: Connectivity) -> None:
+        names = tuple(self._members)
+        neighbours: dict[str, set[str]] = {name: set() for name in names}
+        for i, j in connectivity.edges:
+            neighbours[names[i]].add(names[j])
+            neighbours[names[j]].add(names[i])
+        for name, member in self._members.items():
+            member.see_neighbours(connectivity.stamp_ns, frozenset(neighbours[name]))

@@ -1,0 +1,1 @@
+"""Where agents can be and how long driving takes: grid, maps and travel times."""

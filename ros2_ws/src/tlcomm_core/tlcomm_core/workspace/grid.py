@@ -1,0 +1,173 @@
+"""The workspace as a grid of square cells, some of them closed by obstacles.
+
+``Grid``          cells, their centres (*locations*) and the moves between them
+``HEADING_STEPS`` cell steps (columns, rows) of the eight lattice headings, 45° apart from +x on
+``Box``           a closed rectangle: x_min, y_min, x_max, y_max in metres
+"""
+
+import math
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Final, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+__all__ = ["HEADING_STEPS", "Box", "Grid"]
+
+Box = tuple[float, float, float, float]
+
+HEADING_STEPS: Final = ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1))
+
+_Array = TypeVar("_Array", bound=NDArray[np.generic])
+
+# Share of a cell that a box may overlap, or a size fall short, through rounding alone.
+_ROUNDING_SHARE: Final = 1e-6
+
+
+class Grid:
+    """Square cells over a rectangle; immutable.
+
+    A *location* is an index z into ``locations_m``, the centres of the free cells. A cell is
+    closed when an obstacle covers some of its area; touching edges don't count, and obstacles are
+    not inflated.
+
+    Attributes:
+        cell_m: edge length of a cell.
+        origin_m: lower left corner (x, y).
+        shape: (rows along y, columns along x).
+        boxes: the obstacles as given, float[B, 4] in metres; read-only.
+        free: bool[rows, columns]; read-only.
+        locations_m: centres of the free cells, float[Z, 2], by y, then x; read-only.
+    """
+
+    def __init__(
+        self,
+        size_m: tuple[float, float],
+        cell_m: float,
+        boxes: Sequence[Box] | NDArray[np.float64] = (),
+        origin_m: tuple[float, float] = (0.0, 0.0),
+    ) -> None:
+        """Lay cells over a rectangle and close those that an obstacle covers in part.
+
+        Args:
+            size_m: extent along x and y; what is left over beyond whole cells is closed.
+            cell_m: edge length of a cell.
+            boxes: closed rectangles (x_min, y_min, x_max, y_max); may reach outside.
+            origin_m: lower left corner.
+        """
+        self.cell_m: Final = cell_m
+        self.origin_m: Final = origin_m
+        columns, rows = (math.floor(length_m / cell_m + _ROUNDING_SHARE) for length_m in size_m)
+        self.shape: Final = (rows, columns)
+        self.boxes: Final = _read_only(np.array(boxes, dtype=np.float64).reshape(-1, 4))
+        free = np.ones(self.shape, dtype=np.bool_)
+        for box in self.boxes:
+            free[self._covered(box)] = False
+        self.free: Final = _read_only(free)
+        occupied_rows, occupied_columns = np.nonzero(free)
+        cells = np.column_stack((occupied_columns, occupied_rows))
+        self.locations_m: Final = _read_only(np.array(origin_m) + (cells + 0.5) * cell_m)
+
+    def __len__(self) -> int:
+        """Return the number of locations Z."""
+        return len(self.locations_m)
+
+    @property
+    def size_m(self) -> tuple[float, float]:
+        """Extent of the whole cells along x and y."""
+        return self.shape[1] * self.cell_m, self.shape[0] * self.cell_m
+
+    def contains(self, x_m: float, y_m: float) -> bool:
+        """Tell whether a point lies on the grid, free or not, its border included."""
+        return all(
+            origin_m <= value_m <= origin_m + length_m
+            for value_m, origin_m, length_m in zip(
+                (x_m, y_m), self.origin_m, self.size_m, strict=True
+            )
+        )
+
+    def location_at(self, x_m: float, y_m: float) -> int | None:
+        """Return the location whose cell contains a point; None if closed or outside."""
+        if not self.contains(x_m, y_m):
+            return None
+        row = min(int((y_m - self.origin_m[1]) / self.cell_m), self.shape[0] - 1)
+        column = min(int((x_m - self.origin_m[0]) / self.cell_m), self.shape[1] - 1)
+        index = int(self._index[row, column])
+        return None if index < 0 else index
+
+    def nearest_location(self, x_m: float, y_m: float) -> int | None:
+        """Return the location with its centre nearest to a point; None if no cell is free.
+
+        Ties go to the lowest index. Cost: O(Z).
+        """
+        if not len(self):
+            return None
+        return int(np.argmin(self._distances_m(x_m, y_m)))
+
+    def locations_within(self, x_m: float, y_m: float, radius_m: float) -> NDArray[np.intp]:
+        """Return the locations, in order, whose centres lie in a closed disc. Cost: O(Z)."""
+        return np.flatnonzero(self._distances_m(x_m, y_m) <= radius_m)
+
+    def near(self, location: int, range_m: float) -> NDArray[np.bool_]:
+        """Tell for every location whether it is within ``range_m`` of ``location``. Cost: O(Z)."""
+        x_m, y_m = self.locations_m[location]
+        return self._distances_m(x_m, y_m) <= range_m
+
+    @cached_property
+    def moves(self) -> NDArray[np.int32]:
+        """The neighbour of each location along each lattice heading, int32[Z, 8]; -1 for none.
+
+        A diagonal move needs both cells beside it free: no corner is cut. Read-only.
+        """
+        padded = np.full((self.shape[0] + 2, self.shape[1] + 2), -1, dtype=np.int32)
+        padded[1:-1, 1:-1] = self._index
+        rows, columns = (indices + 1 for indices in np.nonzero(self.free))
+        moves = np.empty((len(self), 8), dtype=np.int32)
+        for heading, (dx, dy) in enumerate(HEADING_STEPS):
+            target = padded[rows + dy, columns + dx]
+            open_sides = (padded[rows, columns + dx] >= 0) & (padded[rows + dy, columns] >= 0)
+            moves[:, heading] = np.where(open_sides, target, -1)
+        return _read_only(moves)
+
+    @cached_property
+    def components(self) -> NDArray[np.int32]:
+        """A label per location, int32[Z]; equal where moves lead from one to the other."""
+        sources, headings = np.nonzero(self.moves >= 0)
+        ones = np.ones(len(sources), dtype=np.int8)
+        entries = (ones, (sources, self.moves[sources, headings]))
+        graph = coo_array(entries, shape=(len(self), len(self)))
+        _, labels = connected_components(graph, directed=False)
+        return _read_only(np.asarray(labels, dtype=np.int32))
+
+    @cached_property
+    def _index(self) -> NDArray[np.int32]:
+        """Location of each cell, int32[rows, columns]; -1 where closed."""
+        index = np.full(self.shape, -1, dtype=np.int32)
+        index[self.free] = np.arange(len(self), dtype=np.int32)
+        return index
+
+    def _distances_m(self, x_m: float, y_m: float) -> NDArray[np.float64]:
+        distances_m: NDArray[np.float64] = np.hypot(
+            self.locations_m[:, 0] - x_m, self.locations_m[:, 1] - y_m
+        )
+        return distances_m
+
+    def _covered(self, box: NDArray[np.float64]) -> tuple[slice, slice]:
+        """Return the rows and columns of the cells that a box covers in part."""
+        x_min, y_min, x_max, y_max = box
+        columns = self._span(x_min - self.origin_m[0], x_max - self.origin_m[0])
+        rows = self._span(y_min - self.origin_m[1], y_max - self.origin_m[1])
+        return rows, columns
+
+    def _span(self, low_m: float, high_m: float) -> slice:
+        first = math.floor(low_m / self.cell_m + _ROUNDING_SHARE)
+        end = math.ceil(high_m / self.cell_m - _ROUNDING_SHARE)
+        return slice(max(first, 0), max(end, 0))
+
+
+def _read_only(array: _Array) -> _Array:
+    array.setflags(write=False)
+    return array

@@ -1,0 +1,40 @@
+"""What the world lets others see.
+
+``Odometry``      one agent's pose and velocity
+``Connectivity``  who is within range of whom
+``Observation``   either
+"""
+
+from dataclasses import dataclass
+
+from tlcomm_core.geometry import Pose
+
+__all__ = ["Connectivity", "Observation", "Odometry"]
+
+
+@dataclass(frozen=True, slots=True)
+class Odometry:
+    """An agent's pose, as an odometry message carries it, and the velocity that it has from now."""
+
+    stamp_ns: int
+    agent: str
+    pose: Pose
+    linear_mps: float
+    angular_radps: float
+
+
+@dataclass(frozen=True, slots=True)
+class Connectivity:
+    """The communication graph G(t) from ``stamp_ns`` on.
+
+    Attributes:
+        edges: index pairs (i, j), i < j, into the scenario's agents, ascending.
+        connected: whether the whole team is connected.
+    """
+
+    stamp_ns: int
+    edges: tuple[tuple[int, int], ...]
+    connected: bool
+
+
+Observation = Odometry | Connectivity
