@@ -77,8 +77,9 @@ tlcomm_holds() {
 
 # --- What set-up needs --------------------------------------------------------------------------
 
+# (Throughout, -I keeps PYTHONPATH and the user's own packages out of set-up.)
 tlcomm_python_version() {
-  "$1" -c 'import sys; print("%d.%d" % sys.version_info[:2])' 2>/dev/null || true
+  "$1" -I -c 'import sys; print("%d.%d" % sys.version_info[:2])' 2>/dev/null || true
 }
 
 tlcomm_choose_python() {
@@ -106,10 +107,10 @@ tlcomm_choose_python() {
 }
 
 tlcomm_check_python() {
-  "$tlcomm_python" -c 'import ensurepip, venv' 2>/dev/null ||
+  "$tlcomm_python" -I -c 'import ensurepip, venv' 2>/dev/null ||
     tlcomm_fail "Python's venv module is missing:" \
       "install it (Debian, Ubuntu: apt install python$tlcomm_python_series-venv)"
-  "$tlcomm_python" -c 'import os, sysconfig
+  "$tlcomm_python" -I -c 'import os, sysconfig
 os.stat(os.path.join(sysconfig.get_path("include"), "Python.h"))' 2>/dev/null ||
     tlcomm_fail "Python's header files are missing:" \
       "install them (Debian, Ubuntu: apt install python$tlcomm_python_series-dev)"
@@ -184,7 +185,7 @@ tlcomm_explain() {
 
 tlcomm_pip() {
   # Downloads are unpacked where the disk was checked; /tmp may be small.
-  TMPDIR=$tlcomm_home/tmp "$tlcomm_venv/bin/python" -m pip --disable-pip-version-check \
+  TMPDIR=$tlcomm_home/tmp "$tlcomm_venv/bin/python" -I -m pip --disable-pip-version-check \
     --no-input install --progress-bar off --require-hashes --no-build-isolation --use-pep517 \
     --only-binary :all: --no-binary empy "$@"
 }
@@ -193,7 +194,7 @@ tlcomm_make_venv() {
   local -a options=()
   if [[ $tlcomm_kind == sourced ]]; then options=(--system-site-packages); fi
   rm -rf -- "$tlcomm_venv" &&
-    "$tlcomm_python" -m venv "${options[@]}" "$tlcomm_venv" &&
+    "$tlcomm_python" -I -m venv "${options[@]}" "$tlcomm_venv" &&
     tlcomm_pip -r "$tlcomm_root/requirements/bootstrap.lock"
 }
 
@@ -345,7 +346,13 @@ tlcomm_export_base() {
   tlcomm_prepend PATH "$tlcomm_venv/bin"
   export VIRTUAL_ENV=$tlcomm_venv PYTHONNOUSERSITE=1
   unset PYTHONHOME
-  if [[ $tlcomm_kind == sourced ]]; then return; fi
+  if [[ $tlcomm_kind == sourced ]]; then
+    # The locked packages come before any of the same names that PYTHONPATH leads to.
+    for folder in "$tlcomm_venv"/lib/python3.*/site-packages; do
+      tlcomm_prepend PYTHONPATH "$folder"
+    done
+    return
+  fi
   # Modules of another environment must not shadow the locked ones.
   unset PYTHONPATH
   export AMENT_PREFIX_PATH=$tlcomm_venv RMW_IMPLEMENTATION=rmw_fastrtps_cpp

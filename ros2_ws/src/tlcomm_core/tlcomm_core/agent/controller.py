@@ -21,11 +21,12 @@ CONTROL_PERIOD_S: Final = 0.05
 LONGEST_STEP_S: Final = 0.5
 """The most time between control steps in lock step while driving."""
 
-# Within this, a waypoint is met when moves end exactly with the control steps: far above rounding.
+# When moves end exactly with the control steps, waypoints are met and headings held to within
+# this: far above rounding, and far below anything that a prediction could notice.
 _EXACT_M: Final = 1e-6
 
-# Otherwise it is met, and headings are held, this much better than the position tolerance, so
-# that the rest of it covers what odometry and timers are off by.
+# Otherwise to within this share of the position tolerance: the rest of it covers what odometry
+# and timers are off by.
 _SHARE: Final = 0.25
 
 
@@ -63,8 +64,7 @@ class Follower:
         self._linear_mps = linear_mps
         self._angular_radps = angular_radps
         self._tolerance_m = position_tolerance_m
-        self._precision_m = _SHARE * position_tolerance_m
-        self._met_m = _EXACT_M if pacing is Pacing.EVENT else self._precision_m
+        self._precision_m = _EXACT_M if pacing is Pacing.EVENT else _SHARE * position_tolerance_m
         self._pacing = pacing
 
     def control(self, pose: Pose, now_s: float) -> tuple[Drive, float] | None:
@@ -90,7 +90,7 @@ class Follower:
             distance_m = pose.distance_m(x_m, y_m)
             error_rad = wrap_angle(math.atan2(y_m - pose.y_m, x_m - pose.x_m) - pose.yaw_rad)
             is_passed = abs(error_rad) >= math.pi / 2.0
-            if distance_m <= self._met_m or (is_passed and distance_m <= self._tolerance_m):
+            if distance_m <= self._precision_m or (is_passed and distance_m <= self._tolerance_m):
                 self._waypoints.pop(0)
             elif is_passed or distance_m * math.sin(abs(error_rad)) > self._precision_m:
                 rate_radps = math.copysign(self._angular_radps, error_rad)

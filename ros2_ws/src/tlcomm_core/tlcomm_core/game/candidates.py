@@ -7,7 +7,6 @@ from itertools import pairwise
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.game.problem import Candidates
@@ -19,8 +18,6 @@ __all__ = ["ROUNDING_S", "candidates"]
 
 ROUNDING_S: Final = 1e-3
 """Kept free before the window's end: simulated time is rounded to nanoseconds, each time anew."""
-
-_Row = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 def candidates(
@@ -51,15 +48,11 @@ def candidates(
     """
     shape = (max(len(offer.stops) - 1, 0), len(travel.grid))
     arrival_s, extra_s = np.empty(shape), np.empty(shape)
-    # A plan's suffix comes by the same places again and again.
-    rows: dict[tuple[Pose, int], _Row] = {}
     for h, (stop, following) in enumerate(pairwise(offer.stops)):
         pose = Pose(stop.x_m, stop.y_m, stop.yaw_rad)
-        key = (pose, _location(following, travel))
-        if key not in rows:
-            rows[key] = _detour(*key, travel)
-        time_s, extra_s[h] = rows[key]
-        arrival_s[h] = (departure_s + stop.finish_offset_s) + time_s
+        detour = travel.detour(pose, _location(following, travel))
+        arrival_s[h] = (departure_s + stop.finish_offset_s) + detour.there_s
+        extra_s[h] = detour.extra_s
     admissible = (arrival_s < window_s[1] - ROUNDING_S) & np.isfinite(extra_s)
     kept = admissible.any(axis=1)
     task_index = np.array([stop.task_index for stop in offer.stops[:-1]], dtype=np.int64)
@@ -77,13 +70,3 @@ def _location(stop: PlannedStop, travel: TravelTimes) -> int:
         message = f"stop {stop!r} isn't in a free cell"
         raise LocalMisuseError(message)
     return location
-
-
-def _detour(pose: Pose, following: int, travel: TravelTimes) -> _Row:
-    """Return, for each z, the time there and what going by z adds to the way to the next stop."""
-    reach = travel.reach(pose)
-    direct_s = travel.leg_to(pose, following).duration_s
-    onward_s = travel.time_to(following)[np.arange(len(reach.heading)), reach.heading]
-    # Where the agent needn't move, it keeps a yaw that may not be a lattice heading.
-    onward_s[reach.time_s == 0.0] = direct_s
-    return reach.time_s, reach.time_s + onward_s - direct_s

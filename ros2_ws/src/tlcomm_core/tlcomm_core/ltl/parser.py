@@ -23,7 +23,8 @@ operators                             associativity  meaning
 Operands are ``true`` ``1`` ``false`` ``0``, a formula in parentheses, or an atom: a letter or
 underscore, then letters, digits and underscores (ASCII), except the words above. A word is read
 whole: ``FGa`` is an atom, ``F G a`` is not. (Spot would split it; here regions may be called
-``Gate`` and actions ``Fill``.)
+``Gate`` and actions ``Fill``.) Only a word of nothing but ``F``, ``G`` and ``X`` is a run of
+operators: ``GF (a)`` is ``G F a``.
 """
 
 import re
@@ -39,7 +40,13 @@ __all__ = ["MAX_LENGTH", "MAX_NESTING", "explain", "parse"]
 MAX_NESTING: Final = 1000
 MAX_LENGTH: Final = 100_000
 
-_TOKEN: Final = re.compile(r"[ \t\r\n]*(<->|->|<>|\[\]|&&|\|\||[A-Za-z0-9_]+|.|\Z)", re.DOTALL)
+_TOKEN: Final = re.compile(
+    r"""[ \t\r\n]*
+    (<->|->|<>|\[\]|&&|\|\||
+    [FGX](?=[FGX]+(?![A-Za-z0-9_]))|  # one letter of a run of prefix operators
+    [A-Za-z0-9_]+|.|\Z)""",
+    re.DOTALL | re.VERBOSE,
+)
 _CONSTANTS: Final = {"true": TRUE, "1": TRUE, "false": FALSE, "0": FALSE}
 _PREFIX: Final = {
     "!": Operator.NOT,

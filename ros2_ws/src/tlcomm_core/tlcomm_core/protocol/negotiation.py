@@ -109,6 +109,7 @@ class Negotiation:
         self._improving: Improving | None = None
         self._confirming: Confirming | None = None
         self._agreed: TeamStrategy | None = None
+        self._meeting_s: float | None = None
         self._neighbours: frozenset[str] = frozenset()
         self._kept: list[BestResponse | Confirmation] = []
         self._retry_s = team.retry_s
@@ -131,7 +132,7 @@ class Negotiation:
     @property
     def meeting_s(self) -> float | None:
         """t_c of the meeting under way, once the whole team is known to be present."""
-        return self._gathering.meeting_s if self._gathering.is_complete else None
+        return self._meeting_s
 
     @property
     def agreed(self) -> TeamStrategy | None:
@@ -200,7 +201,8 @@ class Negotiation:
         if (offer := self._gathering.owed()) is not None:
             messages.append(offer)
         if self._improving is None and self._gathering.is_complete:
-            self._improving = self._begin_improving()
+            self._meeting_s = self._gathering.meeting_s
+            self._improving = self._begin_improving(self._meeting_s + self._team.duration_s)
             self._take_kept()
         if self._improving is not None and self._confirming is None:
             messages += self._improving.owed()
@@ -216,9 +218,8 @@ class Negotiation:
                 self._agreed = self._confirming.strategy
         return messages
 
-    def _begin_improving(self) -> Improving:
+    def _begin_improving(self, departure_s: float) -> Improving:
         offers = self._gathering.offers
-        departure_s = self._gathering.meeting_s + self._team.duration_s
         edges, exchanges = _meeting_graph(offers, self._team)
         names = [offer.agent for offer in offers]
         own = names.index(self._own)

@@ -3,6 +3,7 @@
 ``Motion``       how an agent drives
 ``Leg``          one drive, as predicted and as driven
 ``Reach``        times and arrival headings from one pose to every location
+``Detour``       times by way of every location
 ``TravelTimes``  shortest legs on a grid, for one motion
 
 Legs to a place that a plan names follow the tree of shortest paths *into* that place, legs to a
@@ -25,7 +26,7 @@ from tlcomm_core.workspace.cache import BoundedCache
 from tlcomm_core.workspace.grid import Grid
 from tlcomm_core.workspace.lattice import HEADINGS, HEADINGS_RAD, Lattice, PathTree
 
-__all__ = ["HEADINGS_RAD", "Leg", "Motion", "Reach", "TravelTimes"]
+__all__ = ["HEADINGS_RAD", "Detour", "Leg", "Motion", "Reach", "TravelTimes"]
 
 # A pose this close to a lattice state is that state: far above rounding, far below a controller.
 _SNAP_M: Final = 1e-6
@@ -88,6 +89,25 @@ class Reach:
 
 
 @dataclass(frozen=True, slots=True)
+class Detour:
+    """The way from one pose to a target by way of every location.
+
+    Attributes:
+        there_s: shortest time to each location, float[Z]; inf if unreachable; read-only.
+        extra_s: what going by each location adds to the way to the target, float[Z]; inf if
+            either part is unreachable; read-only.
+    """
+
+    there_s: NDArray[np.float64]
+    extra_s: NDArray[np.float64]
+
+    @property
+    def nbytes(self) -> int:
+        """Size in bytes."""
+        return self.there_s.nbytes + self.extra_s.nbytes
+
+
+@dataclass(frozen=True, slots=True)
 class _Entry:
     """How a pose enters the lattice: over the centre of its cell, then by some heading.
 
@@ -142,6 +162,7 @@ class TravelTimes:
         self._lattice: Final = Lattice(grid, turn_s, motion.linear_mps)
         self._arrivals: Final = BoundedCache[int, PathTree](_CACHE_BYTES)
         self._departures: Final = BoundedCache[Pose, _Departure](_CACHE_BYTES)
+        self._detours: Final = BoundedCache[tuple[Pose, int], Detour](_CACHE_BYTES)
 
     def time_to(self, target: int) -> NDArray[np.float64]:
         """Return the time from every state to a location, at any heading there.
@@ -191,6 +212,28 @@ class TravelTimes:
         last = target * HEADINGS + int(reach.heading[target])
         nodes = _walk(departure.tree, last, entry.location)[::-1]
         return self._leg_along(entry, nodes, float(reach.time_s[target]))
+
+    def detour(self, pose: Pose, target: int) -> Detour:
+        """Return the times from a pose to a target by way of every location; shared, read-only.
+
+        Each leg is the shortest with the heading that the one before it ends with.
+
+        Raises:
+            LocalMisuseError: the pose isn't in a free cell, or no path leads to the target.
+
+        Source: Section IV-B1 of the paper, δ = T(π^h, z) + T(z, π^{h+1}) − T(π^h, π^{h+1}).
+        """
+        return self._detours.get((pose, target), lambda: self._detour(pose, target))
+
+    def _detour(self, pose: Pose, target: int) -> Detour:
+        reach = self.reach(pose)
+        direct_s = self.leg_to(pose, target).duration_s
+        onward_s = self.time_to(target)[np.arange(len(reach.heading)), reach.heading]
+        # Where the agent needn't move, it keeps a yaw that may not be a lattice heading.
+        onward_s[reach.time_s == 0.0] = direct_s
+        extra_s = reach.time_s + onward_s - direct_s
+        extra_s.setflags(write=False)
+        return Detour(reach.time_s, extra_s)
 
     def _paths_into(self, target: int) -> PathTree:
         return self._arrivals.get(target, lambda: self._search_into(target))

@@ -1,0 +1,60 @@
+"""Smaller graphs: useless states, equal states, one mark."""
+
+from tlcomm_core.ltl.reduction import Edge, Graph, degeneralized, reduced
+
+IF_A, IF_NOT_A = 0b01, 0b10
+
+
+def test_states_without_an_accepting_run_go() -> None:
+    """Dead ends and cycles that lack a mark disappear with the edges into them."""
+    graph = Graph(
+        (
+            (Edge(0, 0, 1), Edge(0, 1, 1), Edge(0, 2, 0)),
+            (Edge(0, 1, 0),),
+            (),
+        ),
+        1,
+    )
+    assert reduced(graph) == Graph(((Edge(0, 0, 1),),), 1)
+
+
+def test_a_graph_that_accepts_nothing_keeps_its_initial_state_alone() -> None:
+    """With no accepting run, one state without edges is left."""
+    assert reduced(Graph(((Edge(0, 1, 0),), (Edge(0, 0, 0),)), 1)) == Graph(((),), 1)
+
+
+def test_equal_states_are_merged() -> None:
+    """Two states with the same edges become one; states that differ in a mark don't."""
+    twins = Graph(((Edge(IF_A, 1, 1), Edge(IF_NOT_A, 0, 1)), (Edge(IF_A, 0, 1),)), 1)
+    assert len(reduced(twins).rows) == 2
+    equal = Graph(
+        ((Edge(IF_A, 1, 1), Edge(IF_NOT_A, 0, 1)), (Edge(IF_A, 0, 1), Edge(IF_NOT_A, 1, 1))), 1
+    )
+    assert len(reduced(equal).rows) == 1
+    marked = Graph(((Edge(0, 1, 1),), (Edge(0, 0, 0),)), 1)
+    assert len(reduced(marked).rows) == 2
+
+
+def test_superfluous_edges_go() -> None:
+    """An edge with a stronger guard and fewer marks to the same state is dropped."""
+    graph = Graph(((Edge(IF_A, 0, 0), Edge(0, 0, 1)),), 1)
+    assert reduced(graph) == Graph(((Edge(0, 0, 1),),), 1)
+
+
+def test_one_mark_waits_for_all_in_turn() -> None:
+    """Two marks on different edges of one state need two states; both at once accept at once."""
+    graph = Graph(((Edge(IF_A, 0, 1), Edge(IF_NOT_A, 0, 2), Edge(0, 0, 0)),), 2)
+    assert degeneralized(graph) == Graph(
+        (
+            (Edge(IF_A, 1, 0), Edge(IF_NOT_A, 0, 0), Edge(0, 0, 0)),
+            (Edge(IF_A, 1, 0), Edge(IF_NOT_A, 0, 1), Edge(0, 1, 0)),
+        ),
+        1,
+    )
+    both = Graph(((Edge(IF_A, 0, 3),),), 2)
+    assert degeneralized(both) == Graph(((Edge(IF_A, 0, 1),),), 1)
+
+
+def test_without_marks_every_edge_on_a_cycle_accepts() -> None:
+    """A graph with nothing to wait for accepts all the time."""
+    assert degeneralized(Graph(((Edge(0, 0, 0),),), 0)) == Graph(((Edge(0, 0, 1),),), 1)

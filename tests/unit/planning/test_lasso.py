@@ -1,0 +1,69 @@
+"""The optimal lasso of products made by hand."""
+
+import numpy as np
+
+from tlcomm_core.planning.lasso import Lasso, optimal_lasso
+from tlcomm_core.planning.product import Product
+
+
+def product(size: int, *edges: tuple[int, int, int, bool], initial: int = 0) -> Product:
+    """Return a product with edges (source, target, time, accepting)."""
+    columns = np.array(edges, dtype=np.int64).reshape(-1, 4).T
+    return Product(
+        size=size,
+        initial=np.array([initial]),
+        source=columns[0],
+        target=columns[1],
+        step=np.arange(len(edges)),
+        accepting=columns[3] > 0,
+        time_ns=columns[2],
+    )
+
+
+def test_no_accepting_cycle_means_no_lasso() -> None:
+    """An accepting edge on no cycle and a cycle without acceptance don't make one."""
+    assert optimal_lasso(product(2, (0, 1, 1, True), (1, 1, 1, False))) is None
+
+
+def test_no_edges_at_all_mean_no_lasso() -> None:
+    """Neither does a lone initial state."""
+    assert optimal_lasso(product(1)) is None
+
+
+def test_the_suffix_comes_first_in_cost() -> None:
+    """A cheaper cycle wins at the end of however long a prefix."""
+    graph = product(2, (0, 0, 5, True), (0, 1, 100, False), (1, 1, 4, True))
+    assert optimal_lasso(graph) == Lasso((1,), (2,))
+
+
+def test_of_equal_cycles_the_one_that_is_reached_first_is_taken() -> None:
+    """Then the prefix decides."""
+    graph = product(3, (0, 1, 9, False), (0, 2, 8, False), (1, 1, 4, True), (2, 2, 4, True))
+    assert optimal_lasso(graph) == Lasso((1,), (3,))
+
+
+def test_the_cycle_is_entered_where_that_is_cheapest() -> None:
+    """Not where its accepting edge is."""
+    graph = product(
+        4, (0, 1, 9, False), (0, 2, 1, False), (1, 2, 1, True), (2, 3, 1, False), (3, 1, 1, False)
+    )
+    assert optimal_lasso(graph) == Lasso((1,), (3, 4, 2))
+
+
+def test_a_slow_accepting_edge_is_taken_beside_a_fast_other() -> None:
+    """Of two parallel edges the cycle takes the one that it needs."""
+    graph = product(2, (0, 1, 1, False), (0, 1, 7, True), (1, 0, 1, False))
+    assert optimal_lasso(graph) == Lasso((), (1, 2))
+
+
+def test_edges_of_no_time_are_taken() -> None:
+    """A cycle may hold steps that take no time."""
+    graph = product(3, (0, 1, 0, False), (1, 2, 0, True), (2, 0, 3, False), (0, 0, 4, True))
+    assert optimal_lasso(graph) == Lasso((), (0, 1, 2))
+
+
+def test_times_beyond_single_precision_are_told_apart() -> None:
+    """A nanosecond in a week decides."""
+    week = 7 * 86_400 * 10**9
+    graph = product(2, (0, 0, week + 1, True), (0, 1, 0, False), (1, 1, week, True))
+    assert optimal_lasso(graph) == Lasso((1,), (2,))

@@ -1,0 +1,122 @@
+"""Plans, and reasons why there is none, in the small plant."""
+
+import pytest
+
+from support.small_plant import SmallPlant
+from tlcomm_core.errors import UnreachableTaskError, UnsatisfiableTaskError
+from tlcomm_core.geometry import Pose
+from tlcomm_core.ltl import parse
+from tlcomm_core.planning.plan import LocalPlan, PlanStep
+from tlcomm_core.planning.synthesis import plan_task
+
+PLANT = SmallPlant()
+SYSTEM = PLANT.system()
+
+
+def plan(text: str) -> LocalPlan:
+    """Return the plan from the usual start."""
+    return plan_task(parse(text), SYSTEM)
+
+
+def deeds(steps: tuple[PlanStep, ...]) -> list[str]:
+    """Return what is done where, without mere visits."""
+    return [f"{step.region} {step.action}" for step in steps if step.action]
+
+
+def rotations(cycle: list[str]) -> list[list[str]]:
+    """Return the ways to tell a cycle."""
+    return [cycle[start:] + cycle[:start] for start in range(len(cycle))]
+
+
+@pytest.mark.parametrize(
+    ("order", "text"),
+    [
+        (["p collect", "r unload", "m collect"],
+         "G F (p & collect & F (r & unload & F (m & collect)))"),
+        (["p collect", "m collect", "r unload"],
+         "G F (p & collect & F (m & collect & F (r & unload)))"),
+    ],
+)  # fmt: skip
+def test_the_order_of_nested_eventualities_is_kept(order: list[str], text: str) -> None:
+    """□◇(a ∧ ◇(b ∧ ◇c)) is a, b, c again and again, and not a, c, b; satisfied once a pass."""
+    suffix = plan(text).suffix
+    assert deeds(suffix) in rotations(order)
+    assert [f"{step.region} {step.action}" for step in suffix if step.satisfies] == order[-1:]
+
+
+def test_the_makespan_is_that_of_the_round_trip() -> None:
+    """The suffix costs its legs and actions."""
+    found = plan("G F (p & collect & F (r & unload))")
+    _, pose = PLANT.execute(found.prefix, SYSTEM.states[0].pose)
+    suffix_s, _ = PLANT.execute(found.suffix, pose)
+    assert found.suffix_s == pytest.approx(suffix_s, abs=1e-9)
+    assert sum(step.duration_s for step in found.suffix) == 6.5
+
+
+def test_acting_where_one_already_is_takes_no_way() -> None:
+    """At p for good, collecting over and over costs its duration."""
+    found = plan("F G (p & collect)")
+    assert deeds(found.suffix) == ["p collect"]
+    assert found.suffix_s == 4.0
+
+
+def test_a_task_may_be_to_stay_away() -> None:
+    """Outside all regions the plan is to idle there, with no prefix."""
+    found = plan("G !(p | hall | r | m)")
+    assert found.prefix == ()
+    assert [(step.region, step.action) for step in found.suffix] == [("", None)]
+
+
+def test_a_step_names_the_region_that_the_task_names() -> None:
+    """Of two regions at one place the plan names the task's."""
+    twins = PLANT.system()
+    both = {location: ("other", *names) for location, names in twins.regions.items()}
+    object.__setattr__(twins, "regions", both)
+    assert [step.region for step in plan_task(parse("F G p"), twins).suffix] == ["p"]
+
+
+@pytest.mark.parametrize("text", ["G F (p & !p)", "F p & G !p", "false", "X (r U false)"])
+def test_a_contradiction_is_unsatisfiable(text: str) -> None:
+    """No agent could do it, and the error says so."""
+    with pytest.raises(UnsatisfiableTaskError, match="contradicts itself"):
+        plan(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        ("G F (p & F vault)", "'vault'"),
+        ("G F vault & F weld", "'vault', 'weld'"),
+        ("F vault | G F weld", "'vault', 'weld'"),
+        ("F (vault | p) & F weld", "'weld'"),
+    ],
+)
+def test_what_can_never_be_true_is_named(text: str, names: str) -> None:
+    """A region that is walled in or an unknown action is the cause, and no other is blamed."""
+    with pytest.raises(UnreachableTaskError, match=f"never true there: {names}$"):
+        plan(text)
+
+
+def test_what_is_never_true_together_is_told() -> None:
+    """Two places at once can't be had, though each can."""
+    with pytest.raises(UnreachableTaskError, match="together"):
+        plan("G F (p & r)")
+
+
+def test_an_impossible_order_is_told() -> None:
+    """The start lies in no region, so being in one at once, and for good, has no way."""
+    with pytest.raises(UnreachableTaskError, match="no way"):
+        plan("p & G F r")
+
+
+def test_the_word_begins_with_the_start() -> None:
+    """A start in the hall satisfies `hall` at once, though the plan leaves it at once."""
+    start = Pose(0.75, 0.75, 0.0)
+    found = plan_task(parse("hall & X r & G F r"), PLANT.system(start))
+    assert found.step(0).region == "r"
+
+
+def test_planning_twice_gives_the_same_plan() -> None:
+    """Ties are settled by the input alone."""
+    text = "G F p & G F r & G F m & G F hall"
+    assert plan_task(parse(text), SmallPlant().system()) == plan(text)

@@ -1,0 +1,245 @@
+"""Scenario files: what loads, and one clear line for each that doesn't."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from tlcomm_core.errors import ScenarioError
+from tlcomm_core.scenario.loader import dumps, load_scenario, loads, verify
+
+SCENARIOS = Path(__file__).parents[3] / "scenarios"
+
+GOOD = """\
+name: small
+workspace:
+  size_m: [4.0, 4.0]
+  cell_m: 0.5
+  obstacles_m:
+    - [1.0, 1.0, 2.0, 2.0]
+    - [3.0, 0.0, 3.2, 4.0]
+  regions:
+    a: {at_m: [0.25, 0.25], radius_m: 0.5}
+    b: {at_m: [2.25, 3.25], radius_m: 0.5}
+communication: {range_m: 1.0, period_s: 60.0, duration_s: 5.0}
+motion: {linear_mps: 1.0, angular_radps: 1.5}
+actions: {pick: 4.0}
+agents:
+  one:
+    start: [0.25, 0.75, 0.0]
+    task: "G F (a & pick)"
+  two:
+    start: [0.75, 0.75, 0]
+    task: "G F b"
+    motion: {linear_mps: 0.5}
+    actions: {pick: 1.0, drop: 2}
+"""
+
+
+def test_a_good_scenario_loads_with_its_defaults() -> None:
+    """What the file leaves out is filled in."""
+    scenario = loads(GOOD)
+    assert scenario.workspace.origin_m == (0.0, 0.0)
+    assert scenario.communication.hop_latency_s == 0.005
+    assert scenario.motion.position_tolerance_m == 0.02
+    assert scenario.noise.linear == 0.0
+    assert scenario.agents["two"].start == (0.75, 0.75, 0.0)
+
+
+def test_agents_override_the_team() -> None:
+    """An agent's own fields win, the team's others stay."""
+    scenario = loads(GOOD)
+    assert scenario.drive_of("one").linear_mps == 1.0
+    assert scenario.drive_of("two").linear_mps == 0.5
+    assert scenario.drive_of("two").angular_radps == 1.5
+    assert scenario.actions_of("one") == {"pick": 4.0}
+    assert scenario.actions_of("two") == {"pick": 1.0, "drop": 2.0}
+
+
+@pytest.mark.parametrize("name", ["plant", "corridor", "warehouse"])
+def test_the_projects_scenarios_load_and_survive_a_round_trip(name: str) -> None:
+    """Written out, each loads back equal, with the defaults visible."""
+    scenario = load_scenario(SCENARIOS / f"{name}.yaml")
+    assert scenario.name == name
+    text = dumps(scenario)
+    assert "hop_latency_s: 0.005" in text
+    assert loads(text) == scenario
+
+
+# What to replace in GOOD, by what, the line of the error, and what it says.
+BAD = [
+    ("G F b", "G F c", 20, "agents.two.task: unknown region or action 'c'; expected one of"),
+    ("a & pick", "a & pikc", 17, "agents.one.task: unknown region or action 'pikc'; did you mean"),
+    ("G F b", "G F drop & pik", 20, "did you mean 'pick'?"),
+    ("a & pick", "a & drop", 17, "agents.one.task: unknown region or action 'drop'"),
+    ("G F b", "G F (b &", 20, "agents.two.task: column 9"),
+    ("G F b", "", 20, "agents.two.task: column 1"),
+    ("[0.25, 0.75, 0.0]", "[1.25, 1.75, 0.0]", 16,
+     "agents.one.start: 1.25, 1.75 lies inside an obstacle; choose a free point"),
+    ("[0.25, 0.75, 0.0]", "[3.4, 0.25, 0.0]", 16, "in a cell that an obstacle covers in part"),
+    ("[0.25, 0.75, 0.0]", "[4.25, 0.25, 0.0]", 16,
+     "agents.one.start: 4.25, 0.25 lies outside the workspace (x 0 to 4, y 0 to 4)"),
+    ("[0.75, 0.75, 0]", "[2.75, 3.75, 0]", 19,
+     "agents.two.start: 2.75, 3.75 isn't connected to 'one'"),
+    ("duration_s: 5.0", "duration_s: 60.0", 11,
+     "communication.duration_s: 60.0 isn't shorter than period_s (60.0); expected D_c < T_c"),
+    ("duration_s: 5.0", "duration_s: 5.0, hop_latency_s: 5.0", 11, "communication.hop_latency_s"),
+    ("range_m: 1.0", "range_m: 0.04", 11, "communication.range_m: 0.04 isn't more than twice"),
+    ("linear_mps: 1.0", "linear_mps: -1.0", 12,
+     "motion.linear_mps: found -1.0; expected greater than 0"),
+    ("linear_mps: 0.5", "linear_mps: 0.0", 21, "agents.two.motion.linear_mps: found 0.0"),
+    ("drop: 2", "drop: -2", 22, "agents.two.actions.drop: found -2"),
+    ("  two:", "  one:", 18, "agents.one: given twice; it first stands in line 15"),
+    ("    b: {", "    a: {", 10, "workspace.regions.a: given twice"),
+    ("[2.25, 3.25]", "[2.25, 4.25]", 10,
+     "workspace.regions.b.at_m: 2.25, 4.25 lies outside the workspace"),
+    ("[2.25, 3.25]", "[1.5, 1.5]", 10, "workspace.regions.b: no free cell's centre lies within"),
+    ("[2.25, 3.25]", "[3.75, 3.25]", 20, "region 'b' can't be reached from the start 0.75, 0.75"),
+    ("period_s: 60.0", "period_s: sixty", 11,
+     "communication.period_s: found 'sixty'; expected a valid number"),
+    ("period_s: 60.0", 'period_s: "60.0"', 11, "communication.period_s: found '60.0'"),
+    ("period_s: 60.0", "period_s: true", 11, "communication.period_s: found True"),
+    ("period_s: 60.0", "period_s: .inf", 11,
+     "communication.period_s: found '.inf'; expected a finite number"),
+    ("period_s: 60.0", "period_s: 1e12", 11, "communication.period_s: found 1000000000000.0"),
+    ("period_s: 60.0, ", "", 11, "communication.period_s: missing"),
+    ("period_s", "periods_s", 11,
+     "communication.periods_s: unknown field; did you mean 'period_s'?"),
+    ("actions: {pick: 4.0}", "actoins: {pick: 4.0}", 13,
+     "actoins: unknown field; did you mean 'actions'?"),
+    ("motion: {linear_mps: 1.0, angular_radps: 1.5}", "motion: fast", 12,
+     "motion: found 'fast'; expected a mapping"),
+    ("[0.25, 0.75, 0.0]", "[0.25, 0.75]", 16, "agents.one.start[2]: missing"),
+    ("[0.25, 0.75, 0.0]", "[0.25, 0.75, 0.0, 1.0]", 16, "expected at most 3 items"),
+    ("  two:", "  Agent-2:", 18, "agents.Agent-2: 'Agent-2' is no name; expected a letter"),
+    ("  two:", "  two__2:", 18, "agents.two__2: 'two__2' is no name"),
+    ("  two:", "  sim:", 18, "agents.sim: the name 'sim' is taken"),
+    ("  two:", "  2:", 18, "agents: found 2 as a key; expected text"),
+    ("actions: {pick: 4.0}", "actions: {pick: 4.0, b: 1.0}", 13,
+     "actions.b: the name 'b' is a region's too"),
+    ("actions: {pick: 4.0}", "actions: {pick: 4.0, true: 1.0}", 13, "True as a key"),
+    ("actions: {pick: 4.0}", "actions: {pick: 4.0, not: 1.0}", 13,
+     "actions.not: the name 'not' is an operator of formulas"),
+    ("    b: {", "    U: {", 10, "workspace.regions.U: the name 'U' is an operator"),
+    ("[1.0, 1.0, 2.0, 2.0]", "[1.0, 1.0, 1.0, 2.0]", 6, "workspace.obstacles_m[0]"),
+    ("cell_m: 0.5", "cell_m: 0.001", 4, "workspace.cell_m: 0.001 makes 4000 x 4000 cells"),
+    ("cell_m: 0.5", "cell_m: 5.0", 4, "workspace.cell_m: 5.0 makes 0.8 x 0.8 cells"),
+    ("name: small", "name: ../../etc", 1, "name: found '../../etc'"),
+    ("  size_m: [4.0, 4.0]\n", "", 2, "workspace.size_m: missing"),
+    ("  cell_m: 0.5", "  cell_m: 0.5\n  map: x.yaml", 5, "workspace.map: given beside 'size_m'"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("good", "bad", "line", "expected"), BAD)
+def test_a_bad_scenario_is_one_line_with_file_line_and_field(
+    good: str, bad: str, line: int, expected: str
+) -> None:
+    """Each mistake alone is reported in its own line of the file, in one line of text."""
+    assert GOOD.count(good) >= 1
+    with pytest.raises(ScenarioError) as caught:
+        loads(GOOD.replace(good, bad, 1), "bad.yaml")
+    message = str(caught.value)
+    assert message.startswith(f"bad.yaml:{line}: ")
+    assert expected in message
+    assert "\n" not in message
+    assert len(message) < 300
+
+
+def test_the_first_of_several_mistakes_is_reported() -> None:
+    """By line, whatever the order in which fields are validated."""
+    text = GOOD.removeprefix("name: small\n") + "name: ../x\n"
+    text = text.replace("drop: 2", "drop: -2").replace("period_s: 60.0", "period_s: 0")
+    with pytest.raises(ScenarioError, match=r"bad\.yaml:10: communication\.period_s"):
+        loads(text, "bad.yaml")
+
+
+def test_files_that_cant_be_read_say_so(tmp_path: Path) -> None:
+    """A missing file and a folder give one line with the path."""
+    for path, reason in ((tmp_path / "none.yaml", "No such file"), (tmp_path, "Is a directory")):
+        with pytest.raises(ScenarioError, match=reason) as caught:
+            load_scenario(path)
+        assert str(caught.value).startswith(f"{path}: ")
+
+
+def test_verify_names_the_scenario() -> None:
+    """A scenario made in code is checked like a file."""
+    scenario = loads(GOOD)
+    assert verify(scenario) is scenario
+    changed = scenario.model_copy(update={"actions": {}})
+    with pytest.raises(ScenarioError, match=r"small: agents\.one\.task: unknown"):
+        verify(changed)
+
+
+WITH_MAP = GOOD.replace(
+    """  size_m: [4.0, 4.0]
+  cell_m: 0.5
+  obstacles_m:
+    - [1.0, 1.0, 2.0, 2.0]
+    - [3.0, 0.0, 3.2, 4.0]
+""",
+    "  map: maps/hall.yaml\n  cell_m: 0.5\n",
+)
+MAP = """\
+image: hall.pgm
+resolution: 0.1
+origin: [0.0, 0.0, 0.0]
+negate: 0
+occupied_thresh: 0.65
+free_thresh: 0.196
+"""
+
+
+@pytest.fixture(name="map_scenario")
+def fixture_map_scenario(tmp_path: Path) -> Path:
+    """A scenario whose map has the obstacle of GOOD's middle."""
+    pixels = np.full((40, 40), 254, dtype=np.uint8)
+    pixels[20:30, 10:20] = 0
+    (tmp_path / "maps").mkdir()
+    Image.fromarray(pixels, "L").save(tmp_path / "maps/hall.pgm")
+    (tmp_path / "maps/hall.yaml").write_text(MAP)
+    (tmp_path / "scenario.yaml").write_text(WITH_MAP)
+    return tmp_path / "scenario.yaml"
+
+
+def test_a_map_becomes_size_and_obstacles(map_scenario: Path) -> None:
+    """Once loaded, a scenario no longer needs its map's files."""
+    scenario = load_scenario(map_scenario)
+    assert scenario.workspace.size_m == (4.0, 4.0)
+    assert scenario.workspace.obstacles_m == ((1.0, 1.0, 2.0, 2.0),)
+    assert loads(dumps(scenario)) == scenario
+
+
+@pytest.mark.parametrize(
+    ("good", "bad", "line", "expected"),
+    [
+        ("hall.pgm", "none.pgm", 1, "image: 'none.pgm' can't be read (No such file"),
+        ("hall.pgm", "../../etc/passwd", 1, "isn't beside"),
+        ("resolution: 0.1", "resolution: 0", 2, "resolution: found 0"),
+        ("[0.0, 0.0, 0.0]", "[0.0, 0.0, 1.0]", 3, "origin: [0.0, 0.0, 1.0] turns the map"),
+        ("negate: 0", "negate: 0\nmode: raw", 5, "mode: found 'raw'; expected 'trinary'"),
+        ("resolution: 0.1\n", "", 1, "resolution: missing"),
+    ],
+)
+def test_a_bad_map_is_one_line_of_the_maps_file(
+    map_scenario: Path, good: str, bad: str, line: int, expected: str
+) -> None:
+    """Mistakes in the map's YAML name that file and its line."""
+    path = map_scenario.parent / "maps/hall.yaml"
+    path.write_text(MAP.replace(good, bad))
+    with pytest.raises(ScenarioError) as caught:
+        load_scenario(map_scenario)
+    message = str(caught.value)
+    assert message.startswith(f"{path}:{line}: ")
+    assert expected in message
+    assert "\n" not in message
+
+
+def test_a_missing_map_names_its_path(map_scenario: Path) -> None:
+    """The path is shown as looked for."""
+    map_scenario.write_text(WITH_MAP.replace("hall.yaml", "none.yaml"))
+    with pytest.raises(ScenarioError, match=r"maps/none\.yaml: can't be read: No such file"):
+        load_scenario(map_scenario)
+    map_scenario.write_text(WITH_MAP.replace("maps/hall.yaml", "[1]"))
+    with pytest.raises(ScenarioError, match=r"workspace\.map: found \[1\]"):
+        load_scenario(map_scenario)
