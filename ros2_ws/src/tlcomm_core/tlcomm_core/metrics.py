@@ -15,10 +15,12 @@ from itertools import pairwise
 from typing import Any, Final
 
 from tlcomm_core.agent.actions import TaskEventKind
+from tlcomm_core.agent.timing import RoundTiming
 from tlcomm_core.game.strategy import TeamStrategy
-from tlcomm_core.records import RoundTiming, RunRecords
+from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
-from tlcomm_core.windows import Window, judge_windows, ns_from_s
+from tlcomm_core.units import nanoseconds, seconds
+from tlcomm_core.windows import Window, judge_windows
 from tlcomm_core.world.observation import Connectivity
 
 __all__ = [
@@ -74,7 +76,7 @@ def result_document(scenario: Scenario, records: RunRecords, facts: RunFacts) ->
 
     Source: equation (3) and Problem 2 for ξ, Φ and t_c.
     """
-    end_ns = ns_from_s(facts.sim_s)
+    end_ns = nanoseconds(facts.sim_s)
     timing = scenario.communication
     windows = judge_windows(
         connected_intervals(records.connectivity, end_ns),
@@ -149,7 +151,7 @@ def _rounds(scenario: Scenario, records: RunRecords, end_ns: int) -> list[dict[s
         _round(scenario, strategy, arrivals[number], timings[number])
         for number, strategy in sorted(held.items())
         if len(arrivals[number]) == len(scenario.agents)
-        or ns_from_s((number + 1) * period_s) <= end_ns
+        or nanoseconds((number + 1) * period_s) <= end_ns
     ]
 
 
@@ -195,7 +197,7 @@ def _arrivals_s(records: RunRecords) -> dict[int, dict[str, float]]:
     arrivals: dict[int, dict[str, float]] = defaultdict(dict)
     for record in records.tasks:
         if record.event.kind is TaskEventKind.MEETING_REACHED:
-            arrivals[record.event.round].setdefault(record.agent, record.stamp_ns * 1e-9)
+            arrivals[record.event.round].setdefault(record.agent, seconds(record.stamp_ns))
     return arrivals
 
 
@@ -205,7 +207,7 @@ def _agent(name: str, records: RunRecords) -> dict[str, Any]:
     poses = (seen.pose for seen in records.odometry if seen.agent == name)
     return {
         "tasks_satisfied": len(satisfied_ns),
-        "makespan_s": max(gaps_ns) * 1e-9 if gaps_ns else None,
+        "makespan_s": seconds(max(gaps_ns)) if gaps_ns else None,
         "distance_m": sum(
             earlier.distance_m(later.x_m, later.y_m) for earlier, later in pairwise(poses)
         ),
@@ -222,7 +224,7 @@ def _satisfied_ns(agent: str, records: RunRecords) -> Iterator[int]:
 
 
 def _missed(window: Window, duration_s: float) -> str:
-    longest_s = window.longest_ns * 1e-9
+    longest_s = seconds(window.longest_ns)
     return (
         f"window {window.round} missed: connected for {longest_s:.3f} s at most, "
         f"not {duration_s:g} s"
@@ -233,10 +235,10 @@ def _unsatisfied(scenario: Scenario, records: RunRecords, end_ns: int) -> Iterat
     for agent in scenario.agents:
         moments_ns = [0, *_satisfied_ns(agent, records), end_ns]
         start_ns, stop_ns = max(pairwise(moments_ns), key=lambda gap: gap[1] - gap[0])
-        if stop_ns - start_ns > ns_from_s(patience_s(scenario, agent)):
+        if stop_ns - start_ns > nanoseconds(patience_s(scenario, agent)):
             yield (
-                f"{agent}: task not satisfied from {start_ns * 1e-9:.3f} s "
-                f"to {stop_ns * 1e-9:.3f} s"
+                f"{agent}: task not satisfied from {seconds(start_ns):.3f} s "
+                f"to {seconds(stop_ns):.3f} s"
             )
 
 
@@ -256,7 +258,7 @@ def _disagreements(scenario: Scenario, records: RunRecords) -> Iterator[str]:
 def _faults(records: RunRecords) -> Iterator[str]:
     for record in records.tasks:
         if record.event.kind is TaskEventKind.FAULT:
-            yield f"{record.agent}: fault at {record.stamp_ns * 1e-9:.3f} s: {record.event.detail}"
+            yield f"{record.agent}: fault at {seconds(record.stamp_ns):.3f} s: {record.event.detail}"
 
 
 def _names(names: Iterable[str]) -> str:

@@ -2,7 +2,6 @@
 
 ``TaskRecord``      an agent's ``TaskEvent`` with its time
 ``StrategyRecord``  a team strategy that an agent holds as agreed
-``RoundTiming``     what agreeing on a round took, in wall time
 ``RunRecords``      all of it, with the world's observations
 ``event_log``       the canonical text of a run's decisions, for comparing runs
 """
@@ -12,10 +11,11 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field
 
 from tlcomm_core.agent.actions import TaskEvent
+from tlcomm_core.agent.timing import RoundTiming
 from tlcomm_core.game.strategy import TeamStrategy
 from tlcomm_core.world.observation import Connectivity, Odometry
 
-__all__ = ["RoundTiming", "RunRecords", "StrategyRecord", "TaskRecord", "event_log"]
+__all__ = ["RunRecords", "StrategyRecord", "TaskRecord", "event_log"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,25 +34,6 @@ class StrategyRecord:
     stamp_ns: int
     agent: str
     strategy: TeamStrategy
-
-
-@dataclass(frozen=True, slots=True)
-class RoundTiming:
-    """Wall time that one agent spent on one round.
-
-    Attributes:
-        agent: whose.
-        round: the round agreed on.
-        solve_wall_s: its own computing, from the tables to the equilibrium.
-        offered_wall_s: when it first offered its plan (seconds of the wall clock's epoch).
-        agreed_wall_s: when it held the strategy as agreed (the same clock).
-    """
-
-    agent: str
-    round: int
-    solve_wall_s: float
-    offered_wall_s: float
-    agreed_wall_s: float
 
 
 @dataclass(slots=True)

@@ -25,6 +25,7 @@ from tlcomm_core.mission import Mission, create_world
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.records import RunRecords, StrategyRecord, TaskRecord
 from tlcomm_core.units import nanoseconds
+from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.world.lockstep import LockStep, Reply
 from tlcomm_core.world.observation import Connectivity, Observation, Odometry
 
@@ -75,8 +76,9 @@ class _Harness:
     def __init__(self, mission: Mission) -> None:
         scenario = mission.site.scenario
         self.left = Simulated(RunRecords(messages_sent=dict.fromkeys(scenario.agents, 0)))
+        atlas = Atlas(mission.site.grid)
         self._members: dict[str, Member] = {
-            name: create(name, mission.site, Pacing.EVENT) for name in scenario.agents
+            name: create(name, mission.site, Pacing.EVENT, atlas) for name in scenario.agents
         }
         self._timed = {
             name: TimedMember(member, time.perf_counter, time.time)

@@ -2,13 +2,14 @@
 
 ``Window``         one window's outcome
 ``judge_windows``  all windows' outcomes, from the intervals in which the team was connected
-``ns_from_s``      seconds as a count of nanoseconds
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-__all__ = ["TOLERANCE_NS", "Window", "judge_windows", "ns_from_s"]
+from tlcomm_core.units import nanoseconds
+
+__all__ = ["TOLERANCE_NS", "Window", "judge_windows"]
 
 TOLERANCE_NS = 1_000
 """By how much a connection may fall short of D_c: rounding of times, never a physical effect."""
@@ -29,11 +30,6 @@ class Window:
     satisfied: bool
 
 
-def ns_from_s(time_s: float) -> int:
-    """Return the nearest count of nanoseconds."""
-    return round(time_s * 1e9)
-
-
 def judge_windows(
     connected_ns: Sequence[tuple[int, int]], period_s: float, duration_s: float, end_ns: int
 ) -> tuple[Window, ...]:
@@ -50,7 +46,7 @@ def judge_windows(
 
     Source: constraint (2) of the paper: connected during [t', t' + D_c] for some t' in the window.
     """
-    period_ns, duration_ns = ns_from_s(period_s), ns_from_s(duration_s)
+    period_ns, duration_ns = nanoseconds(period_s), nanoseconds(duration_s)
     windows = []
     for number in range(end_ns // period_ns + 1):
         opens_ns = number * period_ns

@@ -20,12 +20,11 @@ from tlcomm_core.agent.actions import Action, Drive, ReportTask, TaskEvent, Task
 from tlcomm_core.agent.controller import Follower, Pacing
 from tlcomm_core.agent.events import Event, MessageHeard, OdometryReceived, TimePassed
 from tlcomm_core.errors import LocalMisuseError
-from tlcomm_core.game.offer import next_stops
+from tlcomm_core.game.offer import MemberOffer, next_stops
 from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.geometry import Pose, wrap_angle
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
 from tlcomm_core.protocol.actions import CountIgnored
-from tlcomm_core.protocol.messages import MemberOffer
 from tlcomm_core.protocol.negotiation import Negotiation, Rounds
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.workspace.travel import Leg, TravelTimes

@@ -1,7 +1,8 @@
 """One agent as a shell holds it: brain and radio, on integer nanoseconds.
 
-``Member``  the same in one process and over ROS
-``create``  a member from a scenario
+``Member``      the same in one process and over ROS
+``create``      a member from a scenario
+``local_plan``  an agent's plan for its task
 """
 
 import math
@@ -22,6 +23,7 @@ from tlcomm_core.protocol.messages import Message
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds, seconds
+from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import TravelTimes
 
 __all__ = ["Member", "create", "local_plan"]
@@ -112,15 +114,22 @@ def local_plan(name: str, site: Site, travel: TravelTimes) -> LocalPlan:
     return plan_task(parse(site.scenario.agents[name].task), system)
 
 
-def create(name: str, site: Site, pacing: Pacing) -> Member:
+def create(name: str, site: Site, pacing: Pacing, atlas: Atlas) -> Member:
     """Return a member of the scenario's team, with its local plan made.
+
+    Args:
+        name: the agent's name.
+        site: the scenario.
+        pacing: how often its controller is asked.
+        atlas: travel times on the scenario's grid; members in one process may share it.
 
     Raises:
         PlanningError: the agent's task has no plan.
     """
     scenario = site.scenario
     communication = scenario.communication
-    travel = TravelTimes(site.grid, site.motion_of(name, _ALLOWANCE_S[pacing]))
+    allowance_s = _ALLOWANCE_S[pacing]
+    travel = atlas.travel(site.motion_of(name, allowance_s))
     team = Team(
         members=frozenset(scenario.agents),
         range_m=communication.range_m,
@@ -134,7 +143,7 @@ def create(name: str, site: Site, pacing: Pacing) -> Member:
             plan=local_plan(name, site, travel),
             travel=travel,
             team=team,
-            rounds=MeetingRounds(travel, team),
+            rounds=MeetingRounds(atlas, team, allowance_s),
             position_tolerance_m=scenario.drive_of(name).position_tolerance_m,
             pacing=pacing,
         )

@@ -6,10 +6,10 @@
 from collections.abc import Sequence
 
 from tlcomm_core.game.candidates import candidates
-from tlcomm_core.game.offer import offer_flaw
+from tlcomm_core.game.offer import MemberOffer, offer_flaw
 from tlcomm_core.game.problem import RoundProblem
-from tlcomm_core.protocol.messages import MemberOffer
 from tlcomm_core.protocol.team import Team
+from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import Motion, TravelTimes
 
 __all__ = ["MeetingRounds"]
@@ -18,21 +18,21 @@ __all__ = ["MeetingRounds"]
 class MeetingRounds:
     """Poses round problems: every member's candidates, from its offer and the common map."""
 
-    def __init__(self, travel: TravelTimes, team: Team) -> None:
-        """Use the map of ``travel``, whose allowance per segment holds for all members.
+    def __init__(self, atlas: Atlas, team: Team, segment_allowance_s: float) -> None:
+        """Use a map on which every member's controller loses the same per segment.
 
         Args:
-            travel: this agent's own travel times.
+            atlas: the map.
             team: the team.
+            segment_allowance_s: the allowance that travel times are computed with.
         """
-        self._grid = travel.grid
+        self._atlas = atlas
         self._team = team
-        self._allowance_s = travel.motion.segment_allowance_s
-        self._travel = {travel.motion: travel}
+        self._allowance_s = segment_allowance_s
 
     def is_sound(self, offer: MemberOffer) -> bool:
         """Return whether candidates can be computed from a peer's offer."""
-        return offer_flaw(offer, self._grid) is None
+        return offer_flaw(offer, self._atlas.grid) is None
 
     def problem(
         self, round_: int, departure_s: float, offers: Sequence[MemberOffer]
@@ -43,15 +43,12 @@ class MeetingRounds:
             round=round_,
             window_s=window_s,
             range_m=self._team.planned_range_m,
-            locations_m=self._grid.locations_m,
+            locations_m=self._atlas.grid.locations_m,
             candidates=tuple(
                 candidates(offer, departure_s, window_s, self._travel_of(offer)) for offer in offers
             ),
         )
 
     def _travel_of(self, offer: MemberOffer) -> TravelTimes:
-        """Return the travel times with a member's speeds; members of equal speeds share them."""
         motion = Motion(offer.linear_mps, offer.angular_radps, self._allowance_s)
-        if motion not in self._travel:
-            self._travel[motion] = TravelTimes(self._grid, motion)
-        return self._travel[motion]
+        return self._atlas.travel(motion)

@@ -1,16 +1,36 @@
 """What agreeing on a round takes an agent, in wall time.
 
+``RoundTiming``  what it took one agent for one round
 ``TimedMember``  a member whose steps are measured while it plans a round
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from tlcomm_core.agent.actions import Action
 from tlcomm_core.agent.member import Member
 from tlcomm_core.protocol.actions import HoldStrategy, SendMessage
-from tlcomm_core.records import RoundTiming
 
-__all__ = ["TimedMember"]
+__all__ = ["RoundTiming", "TimedMember"]
+
+
+@dataclass(frozen=True, slots=True)
+class RoundTiming:
+    """Wall time that one agent spent on one round.
+
+    Attributes:
+        agent: whose.
+        round: the round agreed on.
+        solve_wall_s: its own computing, from the tables to the equilibrium.
+        offered_wall_s: when it first offered its plan (seconds of the wall clock's epoch).
+        agreed_wall_s: when it held the strategy as agreed (the same clock).
+    """
+
+    agent: str
+    round: int
+    solve_wall_s: float
+    offered_wall_s: float
+    agreed_wall_s: float
 
 
 class TimedMember:

@@ -9,9 +9,9 @@ from typing import Final
 import numpy as np
 
 from tlcomm_core.errors import LocalMisuseError
+from tlcomm_core.game.offer import MemberOffer, PlannedStop
 from tlcomm_core.game.problem import Candidates
 from tlcomm_core.geometry import Pose
-from tlcomm_core.protocol.messages import MemberOffer, PlannedStop
 from tlcomm_core.workspace.travel import TravelTimes
 
 __all__ = ["ROUNDING_S", "candidates"]

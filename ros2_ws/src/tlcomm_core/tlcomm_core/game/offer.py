@@ -1,25 +1,71 @@
 """What an agent lays open of its plan, and whether a peer's can be used.
 
-``next_stops``  an agent's own next stops
-``offer_flaw``  what is wrong with an offer
+``PlannedStop``  one step of a plan as others need it
+``MemberOffer``  an agent's presence and plan
+``next_stops``   an agent's own next stops
+``offer_flaw``   what is wrong with an offer
 """
 
 import math
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Final
 
 from tlcomm_core.geometry import Pose
 from tlcomm_core.planning.plan import LocalPlan
-from tlcomm_core.protocol.messages import MemberOffer, PlannedStop
 from tlcomm_core.workspace.grid import Grid
 from tlcomm_core.workspace.travel import TravelTimes
 
-__all__ = ["MAX_STOPS", "next_stops", "offer_flaw"]
+__all__ = ["MAX_STOPS", "MemberOffer", "PlannedStop", "next_stops", "offer_flaw"]
 
 MAX_STOPS: Final = 256
 """The most stops in an offer: a plan of very short steps is cut off, not sent at any length."""
 
 _MIN_STOPS: Final = 2
+
+
+@dataclass(frozen=True, slots=True)
+class PlannedStop:
+    """One step of a plan as others need it.
+
+    Attributes:
+        task_index: the step's index in its agent's local plan.
+        x_m: where the step is done.
+        y_m: the same.
+        yaw_rad: heading on finishing the step.
+        finish_offset_s: when it is finished, counted from the departure from the meeting.
+    """
+
+    task_index: int
+    x_m: float
+    y_m: float
+    yaw_rad: float
+    finish_offset_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class MemberOffer:
+    """An agent's presence and plan for the time after this meeting.
+
+    Attributes:
+        agent: whose.
+        arrival_s: when it reached its place (simulated time).
+        x_m: where it stands.
+        y_m: the same.
+        yaw_rad: the same.
+        linear_mps: its speed, v.
+        angular_radps: its turn rate, ω.
+        stops: its next steps, ascending; the last is there only as what follows its forerunner.
+    """
+
+    agent: str
+    arrival_s: float
+    x_m: float
+    y_m: float
+    yaw_rad: float
+    linear_mps: float
+    angular_radps: float
+    stops: tuple[PlannedStop, ...]
 
 
 def next_stops(

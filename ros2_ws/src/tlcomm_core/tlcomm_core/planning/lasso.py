@@ -35,7 +35,8 @@ def optimal_lasso(product: Product) -> Lasso | None:
     Cost: one Dijkstra search per distinct target of an accepting edge within a strong component,
         cut off at the best cycle found so far.
     """
-    arcs = _preferring_accepting(product)
+    names = np.arange(len(product.source))
+    arcs = Arcs(product.source, product.target, product.time_ns, names)
     cycles = _Cycles(product, arcs)
     closing = cycles.best_closing_arcs()
     if not len(closing):
@@ -49,13 +50,6 @@ def optimal_lasso(product: Product) -> Lasso | None:
         ),
         key=lambda lasso: len(lasso.prefix) + len(lasso.suffix),
     )
-
-
-def _preferring_accepting(product: Product) -> Arcs:
-    """Return the edges, accepting ones first, so that they win ties among parallel ones."""
-    order = np.argsort(~product.accepting, kind="stable")
-    arcs = Arcs(product.source, product.target, product.time_ns, np.arange(len(product.source)))
-    return arcs.where(order)
 
 
 class _Prefixes:
@@ -82,9 +76,9 @@ class _Cycles:
 
     def __init__(self, product: Product, arcs: Arcs) -> None:
         self._size: Final = product.size
-        inner = _in_accepting_components(product, arcs)
+        inner = _within_components(product.size, arcs)
         self._arcs: Final = arcs.where(inner)
-        self._accepting: Final = arcs.where(inner & product.accepting[arcs.name])
+        self._accepting: Final = arcs.where(inner & product.accepting)
         self._graph: Final = Graph(product.size, self._arcs)
 
     def best_closing_arcs(self) -> Arcs:
@@ -148,13 +142,10 @@ def _by_bound(heads: Ints, bounds_ns: Floats) -> list[tuple[int, Ints]]:
     return [(int(states[place]), groups[place]) for place in by_bound]
 
 
-def _in_accepting_components(product: Product, arcs: Arcs) -> Bools:
-    """Tell for each edge whether it lies in a strong component that has an accepting edge."""
+def _within_components(size: int, arcs: Arcs) -> Bools:
+    """Tell for each edge whether it lies in a strong component, and so on some cycle."""
     _, component = connected_components(
-        Graph(product.size, arcs).matrix, directed=True, connection="strong"
+        Graph(size, arcs).matrix, directed=True, connection="strong"
     )
-    inside: Bools = component[arcs.source] == component[arcs.target]
-    is_accepting = np.zeros(product.size, dtype=np.bool_)
-    is_accepting[component[arcs.source[inside & product.accepting[arcs.name]]]] = True
-    kept: Bools = inside & is_accepting[component[arcs.source]]
-    return kept
+    within: Bools = component[arcs.source] == component[arcs.target]
+    return within

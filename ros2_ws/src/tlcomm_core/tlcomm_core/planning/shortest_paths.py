@@ -64,7 +64,7 @@ class Arcs:
 
 
 class Graph:
-    """Edges by source, then target; of parallel ones the fastest, the first among equals.
+    """Edges by source, then target; of parallel ones the fastest, the first of equals.
 
     Attributes:
         size: number of states N.

@@ -113,10 +113,9 @@ def _limited_to(automaton: BuchiAutomaton, labels: Sequence[frozenset[str]]) -> 
 
 
 def _with_cubes(automaton: BuchiAutomaton, keeps: Callable[[Cube], bool]) -> BuchiAutomaton:
-    """Return the automaton with some cubes of its guards alone, and no edge without any."""
-    thinned = (
-        (replace(edge, guard=Guard(tuple(filter(keeps, edge.guard.cubes)))) for edge in edges)
+    """Return the automaton with some cubes of its guards alone."""
+    transitions = tuple(
+        tuple(replace(edge, guard=Guard(tuple(filter(keeps, edge.guard.cubes)))) for edge in edges)
         for edges in automaton.transitions
     )
-    transitions = tuple(tuple(edge for edge in edges if edge.guard.cubes) for edges in thinned)
     return replace(automaton, transitions=transitions)

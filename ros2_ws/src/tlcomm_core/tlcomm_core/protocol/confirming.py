@@ -63,9 +63,15 @@ class Confirming:
             return Reception.FOREIGN
         if (message.digest, message.iteration) != (self._digest, self._iteration):
             return Reception.CONFLICTING
-        fresh = self._flood.learn(message.sender, confirmed, dict.fromkeys(confirmed))
-        self._is_owed |= bool(fresh or self._flood.lacking(message.sender))
-        return Reception.ACCEPTED if fresh else Reception.DUPLICATE
+        told = self._flood.learn(message.sender, confirmed, dict.fromkeys(confirmed))
+        if told is None:
+            return Reception.DUPLICATE
+        self._is_owed |= bool(told)
+        return Reception.ACCEPTED
+
+    def answer(self) -> None:
+        """Owe the confirmation once more, to one who says that it still waits."""
+        self._is_owed = True
 
     def owed(self) -> Confirmation | None:
         """Return what is to be told now, if anything."""

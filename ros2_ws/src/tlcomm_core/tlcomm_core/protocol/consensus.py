@@ -50,6 +50,7 @@ class MinimumConsensus:
         self._step = -1
         self._heard: dict[int, dict[str, BestResponse]] = {}
         self._sent: list[BestResponse] = []
+        self._response: tuple[int, float, Strategy] | None = None
 
     @property
     def iteration(self) -> int:
@@ -65,6 +66,7 @@ class MinimumConsensus:
         """Begin the next iteration with one's own best response; return what to say."""
         if (self._step + 1) % self._exchanges != 0:
             raise LocalMisuseError(f"an iteration was begun in the middle of step {self._step!r}")
+        self._response = (self.iteration + 1, change_s, strategy)
         return self._say(self._own, change_s, strategy)
 
     def receive(self, message: BestResponse) -> Reception:
@@ -73,11 +75,15 @@ class MinimumConsensus:
             return Reception.UNNEEDED
         if message.iteration < 0 or not 0 <= message.hop < self._exchanges:
             return Reception.MALFORMED
+        if message.hop == 0 and message.candidate != message.sender:
+            return Reception.MALFORMED
         step = message.iteration * self._exchanges + message.hop
         if step < self._step:
             return Reception.LATE
         if step > self._step + 1:
             return Reception.EARLY
+        if message.candidate == self._own and not self._is_own(message):
+            return Reception.CONFLICTING
         earlier = self._heard.setdefault(step, {}).setdefault(message.sender, message)
         if earlier is message:
             return Reception.ACCEPTED
@@ -101,6 +107,15 @@ class MinimumConsensus:
         if self._is_last_exchange() and self._is_step_complete():
             return self._minimum()
         return None
+
+    @property
+    def has_heard_all(self) -> bool:
+        """Whether each neighbour has been heard at least once."""
+        return self._step > 0 or self._is_step_complete()
+
+    def _is_own(self, message: BestResponse) -> bool:
+        """Return whether a peer repeats what was said here at the beginning of the iteration."""
+        return (message.iteration, message.change_s, message.strategy) == self._response
 
     def _is_last_exchange(self) -> bool:
         return self._step >= 0 and (self._step + 1) % self._exchanges == 0

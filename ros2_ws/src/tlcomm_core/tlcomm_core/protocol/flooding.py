@@ -41,7 +41,9 @@ class Flood(Generic[Item]):
         """Whether every member's item is held."""
         return len(self._held) == len(self._team)
 
-    def learn(self, sender: str, known: Iterable[str], items: Mapping[str, Item]) -> frozenset[str]:
+    def learn(
+        self, sender: str, known: Iterable[str], items: Mapping[str, Item]
+    ) -> frozenset[str] | None:
         """Take in what a neighbour told.
 
         Args:
@@ -50,21 +52,25 @@ class Flood(Generic[Item]):
             items: the items told. Of an item held already, the first version stays.
 
         Returns:
-            Owners of the items that are new here.
+            Owners of the items to tell now: new here, or not yet shown by the sender. ``None`` if
+            all of it was known, and nothing changed.
         """
-        self._shown[sender] = self._shown.get(sender, frozenset()).union(known)
+        shown = self._shown.get(sender, frozenset())
+        self._shown[sender] = shown.union(known)
         fresh = frozenset(items) - self._held.keys()
         for owner in sorted(fresh):
             self._held[owner] = items[owner]
-        return fresh
+        told = fresh | self.lacking(sender)
+        return told if told or self._shown[sender] != shown else None
 
-    def lacking(self, sender: str) -> frozenset[str]:
-        """Return owners of the items held here that a neighbour hasn't shown to hold."""
-        return frozenset(self._held) - self._shown.get(sender, frozenset())
+    def lacking(self, *neighbours: str) -> frozenset[str]:
+        """Return owners of the items held here that some neighbour hasn't shown to hold."""
+        shown = (self._shown.get(name, frozenset()) for name in neighbours)
+        return frozenset().union(*(self._held.keys() - items for items in shown))
 
     def lacking_anywhere(self) -> frozenset[str]:
-        """Return owners of the items that some neighbour heard so far hasn't shown to hold."""
-        return frozenset().union(*(self.lacking(sender) for sender in self._shown))
+        """Return the same of all neighbours heard so far."""
+        return self.lacking(*self._shown)
 
     def is_shown_complete_by(self, neighbours: Iterable[str]) -> bool:
         """Return whether each of ``neighbours`` has shown that it holds every member's item."""

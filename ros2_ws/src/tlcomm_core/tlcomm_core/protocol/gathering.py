@@ -3,10 +3,11 @@
 ``Gathering``  one agent's part in flooding the members' offers
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
+from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.protocol.flooding import Flood
-from tlcomm_core.protocol.messages import MemberOffer, PlanOffer
+from tlcomm_core.protocol.messages import PlanOffer
 from tlcomm_core.protocol.reception import Reception
 from tlcomm_core.protocol.team import Team
 
@@ -61,13 +62,17 @@ class Gathering:
         held = self._flood.held
         if not self._team.members.issuperset([*message.known, *offers]):
             return Reception.FOREIGN
+        if len(offers) != len(message.offers):
+            return Reception.MALFORMED
         if any(held.get(agent, offer) != offer for agent, offer in offers.items()):
             return Reception.CONFLICTING
         if not all(self._is_sound(offer) for agent, offer in offers.items() if agent not in held):
             return Reception.MALFORMED
-        fresh = self._flood.learn(message.sender, {*message.known, *offers}, offers)
-        self._owed |= fresh | self._flood.lacking(message.sender)
-        return Reception.ACCEPTED if fresh else Reception.DUPLICATE
+        told = self._flood.learn(message.sender, {*message.known, *offers}, offers)
+        if told is None:
+            return Reception.DUPLICATE
+        self._owed |= told
+        return Reception.ACCEPTED
 
     def owed(self) -> PlanOffer | None:
         """Return what is to be told now: all that was new here or lacking there since the last."""
@@ -79,6 +84,11 @@ class Gathering:
     def repetition(self) -> PlanOffer:
         """Return what to repeat: what neighbours lack, and at least that one is here."""
         return self._tell(self._flood.lacking_anywhere() | {self._own})
+
+    def lacking(self, neighbours: Iterable[str]) -> PlanOffer | None:
+        """Return what to repeat to those who may lack an offer, if anybody may."""
+        lacking = self._flood.lacking(*neighbours)
+        return self._tell(lacking) if lacking else None
 
     def _tell(self, agents: frozenset[str]) -> PlanOffer:
         return PlanOffer(

@@ -3,6 +3,7 @@
 ``Improving``  one agent's part in it
 """
 
+import math
 from collections.abc import Iterable
 
 from tlcomm_core.errors import LocalMisuseError
@@ -89,13 +90,23 @@ class Improving:
         strategy = message.strategy
         if not self._strategies.keys() >= {message.candidate, strategy.agent}:
             return Reception.FOREIGN
-        if (
-            strategy.agent != message.candidate
-            or message.change_s > 0.0
-            or strategy.arrival_s >= self._problem.window_s[1]
-        ):
+        if strategy.agent != message.candidate or not self._is_sound(message.change_s, strategy):
             return Reception.MALFORMED
         return self._consensus.receive(message)
+
+    @property
+    def is_begun_by_all(self) -> bool:
+        """Whether all neighbours are known to be in this phase too, or past it."""
+        return self._consensus.has_heard_all
+
+    def _is_sound(self, change_s: float, strategy: Strategy) -> bool:
+        """Return whether the values can be those of an agent's best response."""
+        values = (strategy.x_m, strategy.y_m, strategy.arrival_s, strategy.extra_travel_s)
+        return (
+            -math.inf < change_s <= 0.0
+            and all(math.isfinite(value) for value in values)
+            and strategy.arrival_s < self._problem.window_s[1]
+        )
 
     def owed(self) -> list[BestResponse]:
         """Go as far as what was heard allows; return what is to be said on the way."""

@@ -1,60 +1,17 @@
 """What agents say to each other, as values; each carries its ticket.
 
-``PlannedStop``, ``MemberOffer``, ``PlanOffer``   who is here, since when, and what it plans
-``BestResponse``                                  σ* and strategy on their way through the team
-``Confirmation``                                  who holds the equilibrium
-``Message``                                       any of the three
+``PlanOffer``     who is here, since when, and what it plans
+``BestResponse``  σ* and strategy on their way through the team
+``Confirmation``  who holds the equilibrium
+``Message``       any of the three
 """
 
 from dataclasses import dataclass
 
+from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.strategy import Strategy
 
-__all__ = ["BestResponse", "Confirmation", "MemberOffer", "Message", "PlanOffer", "PlannedStop"]
-
-
-@dataclass(frozen=True, slots=True)
-class PlannedStop:
-    """One step of a plan as others need it.
-
-    Attributes:
-        task_index: the step's index in its agent's local plan.
-        x_m: where the step is done.
-        y_m: the same.
-        yaw_rad: heading on finishing the step.
-        finish_offset_s: when it is finished, counted from the departure from the meeting.
-    """
-
-    task_index: int
-    x_m: float
-    y_m: float
-    yaw_rad: float
-    finish_offset_s: float
-
-
-@dataclass(frozen=True, slots=True)
-class MemberOffer:
-    """An agent's presence and plan for the time after this meeting.
-
-    Attributes:
-        agent: whose.
-        arrival_s: when it reached its place (simulated time).
-        x_m: where it stands.
-        y_m: the same.
-        yaw_rad: the same.
-        linear_mps: its speed, v.
-        angular_radps: its turn rate, ω.
-        stops: its next steps, ascending; the last is there only as what follows its forerunner.
-    """
-
-    agent: str
-    arrival_s: float
-    x_m: float
-    y_m: float
-    yaw_rad: float
-    linear_mps: float
-    angular_radps: float
-    stops: tuple[PlannedStop, ...]
+__all__ = ["BestResponse", "Confirmation", "Message", "PlanOffer"]
 
 
 @dataclass(frozen=True, slots=True)

@@ -41,19 +41,14 @@ from typing import Final, Protocol
 
 import numpy as np
 
+from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.problem import RoundProblem
 from tlcomm_core.game.strategy import TeamStrategy
 from tlcomm_core.protocol.actions import Action, CountIgnored, HoldStrategy, SendMessage
 from tlcomm_core.protocol.confirming import Confirming
 from tlcomm_core.protocol.gathering import Gathering
 from tlcomm_core.protocol.improving import Improving
-from tlcomm_core.protocol.messages import (
-    BestResponse,
-    Confirmation,
-    MemberOffer,
-    Message,
-    PlanOffer,
-)
+from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
 from tlcomm_core.protocol.reception import Reception
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.world.radio import diameter, links

@@ -34,6 +34,7 @@ _SNAP_RAD: Final = 1e-6
 # Times this close count as equal, so that rounding never decides between equal paths.
 _TIE_S: Final = 1e-9
 _CACHE_BYTES: Final = 64 * 2**20
+_WAYPOINT_BYTES: Final = 128
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +73,11 @@ class Leg:
     duration_s: float
     distance_m: float
     arrival: Pose
+
+    @property
+    def nbytes(self) -> int:
+        """Size in bytes of the waypoints, about."""
+        return _WAYPOINT_BYTES * (1 + len(self.waypoints_m))
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,6 +168,7 @@ class TravelTimes:
         self._lattice: Final = Lattice(grid, turn_s, motion.linear_mps)
         self._arrivals: Final = BoundedCache[int, PathTree](_CACHE_BYTES)
         self._departures: Final = BoundedCache[Pose, _Departure](_CACHE_BYTES)
+        self._legs: Final = BoundedCache[tuple[Pose, int], Leg](_CACHE_BYTES)
         self._detours: Final = BoundedCache[tuple[Pose, int], Detour](_CACHE_BYTES)
 
     def time_to(self, target: int) -> NDArray[np.float64]:
@@ -190,6 +197,9 @@ class TravelTimes:
         Raises:
             LocalMisuseError: the pose isn't in a free cell, or no path leads to the target.
         """
+        return self._legs.get((pose, target), lambda: self._leg_into(pose, target))
+
+    def _leg_into(self, pose: Pose, target: int) -> Leg:
         entry = self._entry(self._snapped(pose))
         if entry.location == target:
             return self._leg_to_centre(entry)

@@ -1,0 +1,195 @@
+"""Meetings to plan at: places in every shape, offers, and problems for them.
+
+``TEAM_RANGE_M``   how far the teams made here hear
+``places``         places of a given shape
+``make_team``      a team of agents by number
+``make_offers``    what agents at given places offer
+``SampleRounds``   ``Rounds`` that pose one sample problem
+``sample_meeting`` a feasible sample problem with the offers and the team for it
+``plant_meeting``  a meeting on a real map, with real offers
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+
+from tlcomm_core.agent.rounds import MeetingRounds
+from tlcomm_core.errors import InfeasibleRoundError
+from tlcomm_core.game.initial import initial_profile
+from tlcomm_core.game.problem import RoundProblem
+from tlcomm_core.game.sample import sample_problem
+from tlcomm_core.game.offer import MemberOffer, PlannedStop
+from tlcomm_core.protocol.team import Team
+from tlcomm_core.workspace.atlas import Atlas
+from tlcomm_core.workspace.grid import Grid
+from tlcomm_core.workspace.travel import Motion, TravelTimes
+
+__all__ = [
+    "SHAPES",
+    "TEAM_RANGE_M",
+    "Meeting",
+    "SampleRounds",
+    "make_offers",
+    "make_team",
+    "places",
+    "plant_meeting",
+    "sample_meeting",
+]
+
+TEAM_RANGE_M = 1.0
+_PLANNED_M = 0.96
+_SPACING_M = 0.9
+
+SHAPES = ("line", "star", "ring", "clique", "random")
+
+Place = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class SampleRounds:
+    """Poses one problem, whatever is offered."""
+
+    problem_: RoundProblem
+
+    def is_sound(self, offer: MemberOffer) -> bool:
+        """Return whether the offer has two stops, as a real one must."""
+        return len(offer.stops) >= 2
+
+    def problem(
+        self, round_: int, departure_s: float, offers: Sequence[MemberOffer]
+    ) -> RoundProblem:
+        """Return the problem, for the team and the round that it was made for."""
+        assert round_ == self.problem_.round
+        assert departure_s < self.problem_.window_s[1]
+        assert tuple(offer.agent for offer in offers) == self.problem_.agents
+        return self.problem_
+
+
+@dataclass(frozen=True, slots=True)
+class Meeting:
+    """All that a negotiation is made of."""
+
+    offers: tuple[MemberOffer, ...]
+    round: int
+    team: Team
+    rounds: SampleRounds | MeetingRounds
+
+    @property
+    def problem(self) -> RoundProblem:
+        """The problem that the complete offers pose."""
+        opens_s = self.team.opens_s(self.round - 1)
+        begins_s = max(opens_s, *(offer.arrival_s for offer in self.offers))
+        return self.rounds.problem(self.round, begins_s + self.team.duration_s, self.offers)
+
+
+def places(shape: str, count: int, rng: np.random.Generator) -> tuple[Place, ...]:
+    """Return places in one of ``SHAPES``, connected within 0.9 m and no less."""
+    match shape:
+        case "line":
+            return tuple((index * _SPACING_M, 0.0) for index in range(count))
+        case "star":
+            # At most five arms, so that their first agents don't hear each other.
+            return ((0.0, 0.0), *(_on_arm(index) for index in range(count - 1)))
+        case "ring":
+            radius_m = _SPACING_M / (2.0 * math.sin(math.pi / count)) if count > 2 else 0.45
+            angles = [math.tau * index / count for index in range(count)]
+            return tuple((radius_m * math.cos(a), radius_m * math.sin(a)) for a in angles)
+        case "clique":
+            return tuple((0.01 * index, 0.0) for index in range(count))
+        case _:
+            return _random_places(count, rng)
+
+
+def _on_arm(index: int) -> Place:
+    angle, distance_m = math.tau * (index % 5) / 5, _SPACING_M * (1 + index // 5)
+    return distance_m * math.cos(angle), distance_m * math.sin(angle)
+
+
+def _random_places(count: int, rng: np.random.Generator) -> tuple[Place, ...]:
+    """Put each agent near one that is placed; some pairs end between planned and real range."""
+    chosen: list[Place] = [(0.0, 0.0)]
+    while len(chosen) < count:
+        x_m, y_m = chosen[rng.integers(len(chosen))]
+        angle, distance_m = rng.uniform(0.0, math.tau), rng.uniform(0.5, _SPACING_M)
+        chosen.append((x_m + distance_m * math.cos(angle), y_m + distance_m * math.sin(angle)))
+    return tuple(chosen)
+
+
+def make_team(count: int, **changes: float) -> Team:
+    """Return a team of ``agent_00``, ``agent_01``, …."""
+    team = Team(
+        members=frozenset(f"agent_{index:02d}" for index in range(count)),
+        range_m=TEAM_RANGE_M,
+        planned_range_m=_PLANNED_M,
+        period_s=60.0,
+        duration_s=5.0,
+    )
+    return replace(team, **changes)
+
+
+def make_offers(at_m: Sequence[Place], arrivals_s: Sequence[float]) -> tuple[MemberOffer, ...]:
+    """Return an offer for each place and time of arrival."""
+    stops = tuple(PlannedStop(index, 0.0, 0.0, 0.0, 10.0 * index) for index in range(2))
+    return tuple(
+        MemberOffer(f"agent_{index:02d}", arrival_s, x_m, y_m, 0.0, 1.0, 1.5, stops)
+        for index, ((x_m, y_m), arrival_s) in enumerate(zip(at_m, arrivals_s, strict=True))
+    )
+
+
+def arrivals_s(count: int, opens_s: float, spread_s: float, rng: np.random.Generator) -> list[float]:
+    """Return times around a window's opening: some before it, most after."""
+    return (opens_s + rng.uniform(-0.2 * spread_s, spread_s, count)).tolist()
+
+
+def sample_meeting(
+    shape: str, count: int, seed: int, spread_s: float = 10.0, tasks: int = 6, **changes: float
+) -> Meeting:
+    """Return a meeting at random times that plans a random feasible round."""
+    rng = np.random.default_rng(seed)
+    problem = _feasible_problem(rng, count, tasks)
+    arrivals = arrivals_s(count, 60.0 * (problem.round - 1), spread_s, rng)
+    offers = make_offers(places(shape, count, rng), arrivals)
+    return Meeting(offers, problem.round, make_team(count, **changes), SampleRounds(problem))
+
+
+def _feasible_problem(rng: np.random.Generator, count: int, tasks: int) -> RoundProblem:
+    while True:
+        problem = sample_problem(rng, count, tasks, 8, 8)
+        try:
+            initial_profile(problem)
+        except InfeasibleRoundError:
+            continue
+        return problem
+
+
+@cache
+def plant_travel() -> TravelTimes:
+    """Return the travel times of a room of 6 m × 6 m with a wall in it."""
+    return TravelTimes(Grid((6.0, 6.0), 0.5, [(2.0, 1.0, 2.5, 4.0)]), Motion(1.0, 1.5))
+
+
+def plant_meeting(count: int, seed: int) -> Meeting:
+    """Return a meeting on a real map: agents along a row of cells, each with a random plan."""
+    rng = np.random.default_rng(seed)
+    travel = plant_travel()
+    team = make_team(count, range_m=0.6, planned_range_m=0.56)
+    row = travel.grid.locations_m[-12:]
+    offers = tuple(
+        replace(offer, stops=_random_stops(travel, rng))
+        for offer in make_offers(
+            [tuple(place) for place in row[:count].tolist()], arrivals_s(count, 60.0, 10.0, rng)
+        )
+    )
+    return Meeting(offers, 2, team, MeetingRounds(Atlas(travel.grid), team, 0.0))
+
+
+def _random_stops(travel: TravelTimes, rng: np.random.Generator) -> tuple[PlannedStop, ...]:
+    finish_s, stops = 0.0, []
+    for index in range(8):
+        x_m, y_m = travel.grid.locations_m[rng.integers(len(travel.grid))].tolist()
+        finish_s += rng.uniform(6.0, 16.0)
+        stops.append(PlannedStop(index, x_m, y_m, 0.0, finish_s))
+    return tuple(stops)
