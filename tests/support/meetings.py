@@ -1,11 +1,12 @@
 """Meetings to plan at: places in every shape, offers, and problems for them.
 
-``TEAM_RANGE_M``   how far the teams made here hear
+``SHAPES``         shapes of a meeting graph
+``Meeting``        all that a negotiation is made of
 ``places``         places of a given shape
 ``make_team``      a team of agents by number
 ``make_offers``    what agents at given places offer
 ``SampleRounds``   ``Rounds`` that pose one sample problem
-``sample_meeting`` a feasible sample problem with the offers and the team for it
+``sample_meeting`` a meeting that plans a random feasible round
 ``plant_meeting``  a meeting on a real map, with real offers
 """
 
@@ -29,7 +30,6 @@ from tlcomm_core.workspace.travel import Motion, TravelTimes
 
 __all__ = [
     "SHAPES",
-    "TEAM_RANGE_M",
     "Meeting",
     "SampleRounds",
     "make_offers",
@@ -39,7 +39,7 @@ __all__ = [
     "sample_meeting",
 ]
 
-TEAM_RANGE_M = 1.0
+_RANGE_M = 1.0
 _PLANNED_M = 0.96
 _SPACING_M = 0.9
 
@@ -55,15 +55,14 @@ class SampleRounds:
     problem_: RoundProblem
 
     def is_sound(self, offer: MemberOffer) -> bool:
-        """Return whether the offer has two stops, as a real one must."""
-        return len(offer.stops) >= 2
+        """Return whether the offer has two stops and a place, as a real one must."""
+        return len(offer.stops) >= 2 and math.isfinite(offer.x_m) and math.isfinite(offer.y_m)
 
     def problem(
         self, round_: int, departure_s: float, offers: Sequence[MemberOffer]
     ) -> RoundProblem:
         """Return the problem, for the team and the round that it was made for."""
-        assert round_ == self.problem_.round
-        assert departure_s < self.problem_.window_s[1]
+        assert round_ == self.problem_.round, departure_s
         assert tuple(offer.agent for offer in offers) == self.problem_.agents
         return self.problem_
 
@@ -122,7 +121,7 @@ def make_team(count: int, **changes: float) -> Team:
     """Return a team of ``agent_00``, ``agent_01``, …."""
     team = Team(
         members=frozenset(f"agent_{index:02d}" for index in range(count)),
-        range_m=TEAM_RANGE_M,
+        range_m=_RANGE_M,
         planned_range_m=_PLANNED_M,
         period_s=60.0,
         duration_s=5.0,
@@ -139,7 +138,9 @@ def make_offers(at_m: Sequence[Place], arrivals_s: Sequence[float]) -> tuple[Mem
     )
 
 
-def arrivals_s(count: int, opens_s: float, spread_s: float, rng: np.random.Generator) -> list[float]:
+def _arrivals_s(
+    count: int, opens_s: float, spread_s: float, rng: np.random.Generator
+) -> list[float]:
     """Return times around a window's opening: some before it, most after."""
     return (opens_s + rng.uniform(-0.2 * spread_s, spread_s, count)).tolist()
 
@@ -150,7 +151,7 @@ def sample_meeting(
     """Return a meeting at random times that plans a random feasible round."""
     rng = np.random.default_rng(seed)
     problem = _feasible_problem(rng, count, tasks)
-    arrivals = arrivals_s(count, 60.0 * (problem.round - 1), spread_s, rng)
+    arrivals = _arrivals_s(count, 60.0 * (problem.round - 1), spread_s, rng)
     offers = make_offers(places(shape, count, rng), arrivals)
     return Meeting(offers, problem.round, make_team(count, **changes), SampleRounds(problem))
 
@@ -166,7 +167,7 @@ def _feasible_problem(rng: np.random.Generator, count: int, tasks: int) -> Round
 
 
 @cache
-def plant_travel() -> TravelTimes:
+def _plant_travel() -> TravelTimes:
     """Return the travel times of a room of 6 m × 6 m with a wall in it."""
     return TravelTimes(Grid((6.0, 6.0), 0.5, [(2.0, 1.0, 2.5, 4.0)]), Motion(1.0, 1.5))
 
@@ -174,13 +175,13 @@ def plant_travel() -> TravelTimes:
 def plant_meeting(count: int, seed: int) -> Meeting:
     """Return a meeting on a real map: agents along a row of cells, each with a random plan."""
     rng = np.random.default_rng(seed)
-    travel = plant_travel()
+    travel = _plant_travel()
     team = make_team(count, range_m=0.6, planned_range_m=0.56)
     row = travel.grid.locations_m[-12:]
     offers = tuple(
         replace(offer, stops=_random_stops(travel, rng))
         for offer in make_offers(
-            [tuple(place) for place in row[:count].tolist()], arrivals_s(count, 60.0, 10.0, rng)
+            [tuple(place) for place in row[:count].tolist()], _arrivals_s(count, 60.0, 10.0, rng)
         )
     )
     return Meeting(offers, 2, team, MeetingRounds(Atlas(travel.grid), team, 0.0))

@@ -7,7 +7,7 @@ PACKAGE = "tlcomm_core"
 setup(
     name=PACKAGE,
     version="0.1.0",
-    description="Temporal-logic planning, the meeting game, the protocol and the world, without ROS.",
+    description="Temporal-logic planning, the meeting game, its protocol and world, without ROS.",
     author="tlcomm maintainers",
     author_email="maintainers@tlcomm.dev",
     license="Apache-2.0",
@@ -19,7 +19,6 @@ setup(
     ],
     python_requires=">=3.11",
     install_requires=[
-        "networkx>=3.4",
         "numpy>=1.26",
         "pillow>=10",
         "pydantic>=2.10",

@@ -7,8 +7,8 @@ import pytest
 
 from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.game.candidates import ROUNDING_S, candidates
+from tlcomm_core.game.offer import MemberOffer, PlannedStop
 from tlcomm_core.geometry import Pose
-from tlcomm_core.protocol.messages import MemberOffer, PlannedStop
 from tlcomm_core.workspace.grid import Grid
 from tlcomm_core.workspace.travel import HEADINGS_RAD, Motion, TravelTimes
 

@@ -5,10 +5,15 @@ from dataclasses import replace
 
 import pytest
 
-from tlcomm_core.game.offer import MAX_STOPS, next_stops, offer_flaw
+from tlcomm_core.game.offer import (
+    MAX_STOPS,
+    MemberOffer,
+    PlannedStop,
+    next_stops,
+    offer_flaw,
+)
 from tlcomm_core.geometry import Pose
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
-from tlcomm_core.protocol.messages import MemberOffer, PlannedStop
 from tlcomm_core.workspace.grid import Grid
 from tlcomm_core.workspace.travel import Motion, TravelTimes
 

@@ -258,7 +258,8 @@ def _disagreements(scenario: Scenario, records: RunRecords) -> Iterator[str]:
 def _faults(records: RunRecords) -> Iterator[str]:
     for record in records.tasks:
         if record.event.kind is TaskEventKind.FAULT:
-            yield f"{record.agent}: fault at {seconds(record.stamp_ns):.3f} s: {record.event.detail}"
+            time_s = seconds(record.stamp_ns)
+            yield f"{record.agent}: fault at {time_s:.3f} s: {record.event.detail}"
 
 
 def _names(names: Iterable[str]) -> str:

@@ -47,19 +47,24 @@ class Simulated:
     sim_ns: int = 0
 
 
-def simulate(mission: Mission, on_progress: Callable[[int, int], None] | None = None) -> Simulated:
+def simulate(
+    mission: Mission,
+    on_progress: Callable[[int, int], None] | None = None,
+    on_message: Callable[[Message], None] | None = None,
+) -> Simulated:
     """Run a mission in this process.
 
     Args:
         mission: what to run.
         on_progress: called after each instant with the simulated time (ns) and the number of
             meetings that have ended.
+        on_message: called with each message that a member says.
 
     Raises:
         PlanningError: an agent's task has no plan.
         InfeasibleRoundError: the team has no admissible next meeting.
     """
-    harness = _Harness(mission)
+    harness = _Harness(mission, on_message)
     while (step := harness.lockstep.next_step()) is not None:
         harness.show(step.observations)
         replies = {name: harness.act(name, step.time_ns) for name in step.ticked}
@@ -73,7 +78,8 @@ def simulate(mission: Mission, on_progress: Callable[[int, int], None] | None = 
 class _Harness:
     """The members' shell: carries observations and messages between world and members."""
 
-    def __init__(self, mission: Mission) -> None:
+    def __init__(self, mission: Mission, on_message: Callable[[Message], None] | None) -> None:
+        self._on_message = on_message
         scenario = mission.site.scenario
         self.left = Simulated(RunRecords(messages_sent=dict.fromkeys(scenario.agents, 0)))
         atlas = Atlas(mission.site.grid)
@@ -144,6 +150,8 @@ class _Harness:
 
     def _broadcast(self, sender: str, message: Message, now_ns: int) -> None:
         self.left.records.messages_sent[sender] += 1
+        if self._on_message is not None:
+            self._on_message(message)
         for name, member in self._members.items():
             if name != sender:
                 member.receive(message, now_ns)

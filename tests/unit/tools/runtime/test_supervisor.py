@@ -54,6 +54,7 @@ class Heard:
         self.hook = hook
 
     def __call__(self, name: str, note: Note) -> None:
+        """Note a note."""
         self.notes.append((name, note))
         self.hook(name, note)
 
@@ -159,7 +160,7 @@ def test_deadlines(
 ) -> None:
     """A process that doesn't start, find the others, progress or end in time is named."""
     specs = [make(f"p{index}", text) for index, text in enumerate(texts)]
-    deadlines = Deadlines(**{**{"interrupt_s": 0.2, "terminate_s": 0.2}, **limits})
+    deadlines = Deadlines(**{"interrupt_s": 0.2, "terminate_s": 0.2, **limits})
     outcome = run_processes(specs, environment(), Heard(), deadlines)
     assert isinstance(outcome, RunFailed)
     assert (outcome.name, outcome.reason, outcome.status) == (name, reason, 3)
@@ -186,7 +187,7 @@ def test_escalation_and_order(make: Callable[..., ProcessSpec], tmp_path: Path) 
     specs = [make("recorder", recorder, stop_last=True), make("deaf", deaf)]
     ready: set[str] = set()
 
-    def interrupt(name: str, note: Note) -> None:
+    def interrupt(name: str, _: Note) -> None:
         ready.add(name)
         if len(ready) == len(specs):
             os.kill(os.getpid(), signal.SIGINT)

@@ -66,6 +66,7 @@ class Follower:
         self._tolerance_m = position_tolerance_m
         self._precision_m = _EXACT_M if pacing is Pacing.EVENT else _SHARE * position_tolerance_m
         self._pacing = pacing
+        self._is_approaching = False
 
     def control(self, pose: Pose, now_s: float) -> tuple[Drive, float] | None:
         """Return the velocity from now on, and when to ask again; ``None`` at the leg's end.
@@ -89,12 +90,19 @@ class Follower:
             x_m, y_m = self._waypoints[0]
             distance_m = pose.distance_m(x_m, y_m)
             error_rad = wrap_angle(math.atan2(y_m - pose.y_m, x_m - pose.x_m) - pose.yaw_rad)
-            is_passed = abs(error_rad) >= math.pi / 2.0
-            if distance_m <= self._precision_m or (is_passed and distance_m <= self._tolerance_m):
+            is_behind = abs(error_rad) >= math.pi / 2.0
+            if distance_m <= self._precision_m or (is_behind and distance_m <= self._tolerance_m):
                 self._waypoints.pop(0)
-            elif is_passed or distance_m * math.sin(abs(error_rad)) > self._precision_m:
+                self._is_approaching = False
+                continue
+            linear_mps = self._linear_mps
+            if is_behind and self._is_approaching:
+                # It was overshot: going back a little takes less time than turning round twice.
+                linear_mps, is_behind = -linear_mps, False
+                error_rad = wrap_angle(error_rad + math.pi)
+            if is_behind or distance_m * math.sin(abs(error_rad)) > self._precision_m:
                 rate_radps = math.copysign(self._angular_radps, error_rad)
                 return _Move(0.0, rate_radps, abs(error_rad) / self._angular_radps)
-            else:
-                return _Move(self._linear_mps, 0.0, distance_m / self._linear_mps)
+            self._is_approaching = True
+            return _Move(linear_mps, 0.0, distance_m / self._linear_mps)
         return None

@@ -17,6 +17,10 @@ __all__ = ["Radio"]
 # ROS keeps the order on each topic only.
 _KIND_RANK: Final[dict[type[Message], int]] = {PlanOffer: 0, BestResponse: 1, Confirmation: 2}
 
+# Free running, a message may be taken off the air some time after it arrived, and links may have
+# changed since. One that comes later than this isn't let through.
+_MEMORY_NS: Final = 10_000_000_000
+
 
 class Radio:
     """The filter between what is on the air and what the agent hears."""
@@ -56,9 +60,10 @@ class Radio:
         return messages
 
     def _is_in_range(self, message: Message, due_ns: int) -> bool:
-        return message.sender in self._neighbours[bisect_right(self._since_ns, due_ns) - 1]
+        known = bisect_right(self._since_ns, due_ns) - 1
+        return known >= 0 and message.sender in self._neighbours[known]
 
     def _forget_before(self, now_ns: int) -> None:
         """Keep what decides on messages that are still to come, and no more."""
-        current = bisect_right(self._since_ns, now_ns) - 1
-        del self._since_ns[:current], self._neighbours[:current]
+        oldest = max(0, bisect_right(self._since_ns, now_ns - _MEMORY_NS) - 1)
+        del self._since_ns[:oldest], self._neighbours[:oldest]

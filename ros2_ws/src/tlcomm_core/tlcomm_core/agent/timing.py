@@ -64,8 +64,9 @@ class TimedMember:
         elapsed_s = self._stopwatch_s() - begin_s
         if was_planning or self.member.planned_round is not None:
             self._solve_wall_s += elapsed_s
-        if self._offered_wall_s is None and any(isinstance(a, SendMessage) for a in actions):
-            self._offered_wall_s = begin_wall_s
+            # What is still said after the agreement offers nothing.
+            if self._offered_wall_s is None and any(isinstance(a, SendMessage) for a in actions):
+                self._offered_wall_s = begin_wall_s
         held = next((a.strategy for a in actions if isinstance(a, HoldStrategy)), None)
         if held is None:
             return actions, None

@@ -73,19 +73,16 @@ class MinimumConsensus:
         """Take a message of this round; nothing else changes until ``advance``."""
         if message.sender not in self._neighbours:
             return Reception.UNNEEDED
-        if message.iteration < 0 or not 0 <= message.hop < self._exchanges:
-            return Reception.MALFORMED
-        if message.hop == 0 and message.candidate != message.sender:
+        if not self._is_possible(message):
             return Reception.MALFORMED
         step = message.iteration * self._exchanges + message.hop
-        if step < self._step:
-            return Reception.LATE
-        if step > self._step + 1:
-            return Reception.EARLY
+        if not self._step <= step <= self._step + 1:
+            return Reception.LATE if step < self._step else Reception.EARLY
         if message.candidate == self._own and not self._is_own(message):
             return Reception.CONFLICTING
-        earlier = self._heard.setdefault(step, {}).setdefault(message.sender, message)
-        if earlier is message:
+        earlier = self._heard.get(step, {}).get(message.sender)
+        if earlier is None:
+            self._heard.setdefault(step, {})[message.sender] = message
             return Reception.ACCEPTED
         return Reception.DUPLICATE if earlier == message else Reception.CONFLICTING
 
@@ -112,6 +109,14 @@ class MinimumConsensus:
     def has_heard_all(self) -> bool:
         """Whether each neighbour has been heard at least once."""
         return self._step > 0 or self._is_step_complete()
+
+    def _is_possible(self, message: BestResponse) -> bool:
+        """Return whether the ticket exists; before the first exchange all speak for themselves."""
+        return (
+            message.iteration >= 0
+            and 0 <= message.hop < self._exchanges
+            and (message.hop > 0 or message.candidate == message.sender)
+        )
 
     def _is_own(self, message: BestResponse) -> bool:
         """Return whether a peer repeats what was said here at the beginning of the iteration."""

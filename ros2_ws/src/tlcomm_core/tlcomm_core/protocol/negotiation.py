@@ -18,20 +18,23 @@ Which messages matter in which phase (rows: what is heard of the round being pla
 
               GATHERING      IMPROVING      CONFIRMING     AGREED
 PlanOffer     learn, relay   answer         answer         answer
-BestResponse  keep           exchange       late           late
+BestResponse  keep           exchange       late           answer
 Confirmation  keep           keep           learn, relay   answer
 
 *keep*: a neighbour whose phase ended may be one ahead, since what ended it may reach this agent
 only later; what it says is taken in when the own phase follows. *answer*: the sender may lack what
-ends its phase. Of another round: late or early. From outside the team: foreign. Whatever is
-malformed or contradicts what was heard before changes nothing.
+ends its phase or its repetitions, so that is told once more. Of another round: late or early. From
+outside the team: foreign. Whatever is malformed or contradicts what was heard before changes
+nothing.
 
 Safety: an agent confirms one team strategy per round only, and holds it as agreed only when all
 members have confirmed the same; so no two agents ever hold different strategies for one round.
 
 Liveness: what a neighbour may still need is repeated every ``retry_s`` until its messages show
 that it is past needing it. An offer or a confirmation is shown by being relayed, an exchange of
-the consensus by the neighbour's next one. So while the team stays connected, each phase ends.
+the consensus by the neighbour's next one. So while the team stays connected, each phase ends. Who
+sees that all its neighbours hold all confirmations is *settled* and falls silent; a neighbour that
+can't see the same of it still repeats its last exchanges, and that it answers.
 """
 
 import math
@@ -41,6 +44,8 @@ from typing import Final, Protocol
 
 import numpy as np
 
+from tlcomm_core.errors import LocalMisuseError
+from tlcomm_core.game.connectivity import LINK_TOLERANCE_M
 from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.problem import RoundProblem
 from tlcomm_core.game.strategy import TeamStrategy
@@ -51,7 +56,7 @@ from tlcomm_core.protocol.improving import Improving
 from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
 from tlcomm_core.protocol.reception import Reception
 from tlcomm_core.protocol.team import Team
-from tlcomm_core.world.radio import diameter, links
+from tlcomm_core.world.radio import diameter, distances_m, links
 
 __all__ = ["Negotiation", "Phase", "Rounds"]
 
@@ -107,6 +112,7 @@ class Negotiation:
         self._meeting_s: float | None = None
         self._neighbours: frozenset[str] = frozenset()
         self._kept: list[BestResponse | Confirmation] = []
+        self._ignored: list[CountIgnored] = []
         self._retry_s = team.retry_s
         self._next_need_s = math.inf
 
@@ -160,7 +166,8 @@ class Negotiation:
             self._next_need_s = now_s + self._retry_s
         if self._is_settled():
             self._next_need_s = math.inf
-        actions: list[Action] = [SendMessage(message) for message in messages]
+        actions: list[Action] = [*self._ignored, *(SendMessage(message) for message in messages)]
+        self._ignored = []
         if self._agreed is not None and not was_agreed:
             actions.append(HoldStrategy(self._agreed))
         return tuple(actions)
@@ -176,9 +183,18 @@ class Negotiation:
             case BestResponse():
                 if self._improving is None:
                     return self._keep(message)
-                return Reception.LATE if self._confirming else self._improving.hear(message)
+                return self._answer_if_repeated(message, self._improving.hear(message))
             case Confirmation():
                 return self._confirming.hear(message) if self._confirming else self._keep(message)
+
+    def _answer_if_repeated(self, message: BestResponse, reception: Reception) -> Reception:
+        """Once settled, show so to a neighbour that still repeats what it said last."""
+        if self._confirming is None or reception not in (Reception.LATE, Reception.DUPLICATE):
+            return reception
+        if not self._is_settled() or message.sender not in self._neighbours:
+            return Reception.LATE
+        self._confirming.answer()
+        return Reception.ACCEPTED
 
     def _keep(self, message: BestResponse | Confirmation) -> Reception:
         if message in self._kept or len(self._kept) >= _KEPT_PER_MEMBER * len(self._team.members):
@@ -189,7 +205,9 @@ class Negotiation:
     def _take_kept(self) -> None:
         kept, self._kept = self._kept, []
         for message in kept:
-            self._receive(message)
+            reception = self._receive(message)
+            if reception is not Reception.ACCEPTED:
+                self._ignored.append(CountIgnored(reception.value))
 
     def _advance(self) -> list[Message]:
         messages: list[Message] = []
@@ -233,8 +251,15 @@ class Negotiation:
             self._retry_s = min(2.0 * self._retry_s, self._team.patience_s)
             return [self._gathering.repetition()]
         if self._confirming is None:
-            return [*self._improving.unsuperseded]
+            return [*self._offers_lacking(self._improving), *self._improving.unsuperseded]
         return [*self._improving.unsuperseded, self._confirming.repetition()]
+
+    def _offers_lacking(self, improving: Improving) -> list[Message]:
+        """Return the offers without which a neighbour can't follow into this phase."""
+        if improving.is_begun_by_all:
+            return []
+        offer = self._gathering.lacking(self._neighbours)
+        return [] if offer is None else [offer]
 
     def _is_settled(self) -> bool:
         """Return whether no neighbour can need anything any more."""
@@ -250,13 +275,14 @@ def _meeting_graph(
 
     These are the links that hold although both ends are off by their tolerance: a pair reported
     exactly R apart may hear each other or not. Only a team that isn't connected by such links, as
-    at its start it may not be, relies on all links within R.
+    at its start it may not be, relies on longer ones, up to the first length that connects it.
     """
     places_m = np.array([(offer.x_m, offer.y_m) for offer in offers])
-    for range_m in (team.planned_range_m, team.range_m):
+    sure_m = team.planned_range_m + LINK_TOLERANCE_M
+    lengths_m = np.unique(distances_m(places_m))
+    for range_m in (sure_m, *lengths_m[lengths_m > sure_m].tolist()):
         edges = links(places_m, range_m)
         hops = diameter(len(offers), edges)
         if hops is not None:
             return edges, max(1, hops)
-    # All heard each other, so their reported poses are off: N − 1 exchanges suffice on any graph.
-    return edges, max(1, len(offers) - 1)
+    raise LocalMisuseError(f"{places_m!r} are places at no finite distance")

@@ -117,7 +117,7 @@ class LockStep:
             return None
         needs_ns = [need for need in self._needs_ns.values() if need is not None]
         arrivals_ns = [entry[0] for entry in self._on_air[:1]]
-        time_ns = min(self._world.next_change_ns(), *needs_ns, *arrivals_ns)
+        time_ns = min([self._world.next_change_ns(), *needs_ns, *arrivals_ns])
         if self._stop.until_ns is not None and time_ns >= self._stop.until_ns:
             time_ns = self._stop.until_ns
             self._is_over = True

@@ -1,0 +1,1 @@
+"""The ROS 2 node of one agent: a thin shell around the brain of `tlcomm_core`."""

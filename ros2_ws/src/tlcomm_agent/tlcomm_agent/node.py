@@ -1,0 +1,403 @@
+"""One agent as a ROS 2 node: a thin shell around its brain and radio.
+
+``main``       the executable:
+               ``ros2 run tlcomm_agent agent --ros-args -r __ns:=/agent_1 -p scenario:=…``
+``run``        the process's whole life, for whoever supervises it
+``AgentNode``  the node
+"""
+
+import sys
+import time
+from collections import Counter
+from collections.abc import Callable, Sequence
+from typing import Any, Final, assert_never
+
+import rclpy
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
+from rcl_interfaces.msg import ParameterDescriptor
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.serialization import deserialize_message
+
+from tlcomm_agent import wire
+from tlcomm_agent.config import AgentConfig
+from tlcomm_core.agent.actions import (
+    Action,
+    CountIgnored,
+    Drive,
+    HoldStrategy,
+    ReportTask,
+    SendMessage,
+)
+from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
+from tlcomm_core.agent.member import create
+from tlcomm_core.agent.timing import TimedMember
+from tlcomm_core.errors import InputError, PlanningError, TlcommError
+from tlcomm_core.scenario.site import Site
+from tlcomm_core.workspace.atlas import Atlas
+from tlcomm_msgs import msg
+
+__all__ = ["AgentNode", "main", "run"]
+
+Spin = Callable[[Node, Callable[[], bool]], None]
+
+_DEPTH: Final = 1000
+_HELD_STRATEGIES: Final = 10
+_READY_PERIOD_S: Final = 0.1
+_LEAVE_PERIOD_S: Final = 0.05
+_MOST_REASONS: Final = 100
+_STATUS_INPUT: Final = 2
+_STATUS_BROKEN: Final = 3
+
+
+class AgentNode(Node):
+    """An agent's brain and radio on topics.
+
+    In lock step it acts when ticked, once everything that the tick counts has arrived; otherwise
+    whenever it hears something, and at 20 Hz of the node's clock.
+
+    Attributes:
+        config: who it is.
+        is_done: it has been told that the run is over, and the sim has gone.
+        ignored: per reason, how many messages changed nothing.
+    """
+
+    def __init__(
+        self,
+        *,
+        namespace: str | None = None,
+        parameters: Sequence[Parameter] = (),
+        context: Context | None = None,
+        on_ready: Callable[[], None] = lambda: None,
+    ) -> None:
+        """Read the parameters ``scenario``, ``pace`` and ``recorder``; plan.
+
+        Args:
+            namespace: the agent's name, unless the command line says it.
+            parameters: overrides.
+            context: the default one, or a test's own.
+            on_ready: called when the node has found all the others.
+
+        Raises:
+            InputError: a parameter or the scenario can't be used.
+            PlanningError: the agent's task has no plan.
+        """
+        super().__init__(
+            "agent",
+            namespace=namespace,
+            context=context,
+            enable_rosout=False,
+            start_parameter_services=False,
+            parameter_overrides=[
+                Parameter("start_type_description_service", value=False),
+                *parameters,
+            ],
+        )
+        self.config: Final = AgentConfig.from_parameters(self.get_namespace(), self._declared)
+        self.is_done = False
+        self.ignored: Final[Counter[str]] = Counter()
+        self._on_ready: Final = on_ready
+        pacing = Pacing.EVENT if self.config.pace.is_lockstep else Pacing.PERIODIC
+        site = Site.from_scenario(self.config.scenario)
+        self._member: Final = create(self.config.name, site, pacing, Atlas(site.grid))
+        self._timed: Final = TimedMember(self._member, time.perf_counter, time.time)
+        self._odometry_count = 0
+        self._connectivity_count = 0
+        self._team_counts: Final = dict.fromkeys(self.config.others, 0)
+        self._tick: msg.Tick | None = None
+        self._published = self._commands = self._team_messages = 0
+        self._is_ready = False
+        self._is_stopped = False
+        self._meetings_reported = 0
+        self._create_publishers()
+        self._create_subscriptions()
+        self._steady: Final = Clock(clock_type=ClockType.STEADY_TIME)
+        self._ready_timer: Final = self.create_timer(
+            _READY_PERIOD_S, self._say_ready, clock=self._steady
+        )
+        if not self.config.pace.is_lockstep:
+            self.create_timer(CONTROL_PERIOD_S, self._step_freely)
+
+    def _declared(self, name: str) -> object:
+        defaults = {"scenario": "", "pace": "lockstep", "recorder": False}
+        descriptor = ParameterDescriptor(dynamic_typing=True)
+        return self.declare_parameter(name, defaults[name], descriptor).value
+
+    def _create_publishers(self) -> None:
+        create = self.create_publisher
+        held = QoSProfile(
+            depth=_HELD_STRATEGIES,
+            reliability=ReliabilityPolicy.RELIABLE,
+            durability=DurabilityPolicy.TRANSIENT_LOCAL,
+        )
+        self._command_pub = create(TwistStamped, "cmd_vel", _DEPTH)
+        self._answer_pub = create(msg.TickReply, "/tick_reply", _DEPTH)
+        self._team_pubs = {
+            topic: create(kind, topic, _DEPTH) for topic, kind in wire.TEAM_TYPES.items()
+        }
+        self._task_pub = create(msg.TaskEvent, "task_event", _DEPTH)
+        self._strategy_pub = create(msg.TeamStrategy, "team_strategy", held)
+        self._timing_pub = create(msg.RoundTiming, "round_timing", _DEPTH)
+        # Nothing is estimated yet, but the topic is there for those who look for it.
+        self._estimate_pub = create(msg.Estimate, "estimate", _DEPTH)
+        self._recorded_pubs = (
+            self._task_pub,
+            self._strategy_pub,
+            self._timing_pub,
+            self._estimate_pub,
+        )
+
+    def _create_subscriptions(self) -> None:
+        subscribe = self.create_subscription
+        self._tick_sub = subscribe(msg.Tick, "tick", self._take_tick, _DEPTH)
+        own = [
+            subscribe(Odometry, "odom", self._take_odometry, _DEPTH),
+            subscribe(msg.Connectivity, "/connectivity", self._take_connectivity, _DEPTH),
+            self._tick_sub,
+        ]
+        team = [
+            self._subscribe_team(other, topic)
+            for other in self.config.others
+            for topic in wire.TEAM_TYPES
+        ]
+        self._own_subscriptions = (*own, *team)
+
+    def _subscribe_team(self, other: str, topic: str) -> Any:  # noqa: ANN401 (rclpy's are opaque)
+        kind = wire.TEAM_TYPES[topic]
+
+        def take(data: bytes) -> None:
+            self._team_counts[other] += 1
+            self._hear(other, kind, data)
+            self._proceed()
+
+        return self.create_subscription(kind, f"/{other}/{topic}", take, _DEPTH, raw=True)
+
+    def _take_odometry(self, message: Odometry) -> None:
+        self._odometry_count += 1
+        try:
+            seen = wire.decode_odometry(message, self.config.name)
+        except wire.WireError as error:
+            self._ignore(f"odom: {error}")
+        else:
+            self._member.see_odometry(seen.stamp_ns, seen.pose, seen.linear_mps, seen.angular_radps)
+        self._proceed()
+
+    def _take_connectivity(self, message: msg.Connectivity) -> None:
+        self._connectivity_count += 1
+        try:
+            neighbours, stamp_ns = wire.decode_neighbours(message, self.config.name)
+        except wire.WireError as error:
+            self._ignore(f"connectivity: {error}")
+        else:
+            self._member.see_neighbours(stamp_ns, neighbours)
+        self._proceed()
+
+    def _hear(self, other: str, kind: type, data: bytes) -> None:
+        """Take what another agent's topic carries, whatever that is."""
+        try:
+            message, sent_ns = wire.decode_message(deserialize_message(data, kind))
+        except wire.WireError as error:
+            self._ignore(f"{other}: {error}")
+            return
+        except Exception as error:  # noqa: BLE001 (bytes from outside break rclpy in its own ways)
+            self._ignore(f"{other}: not a {kind.__name__}: {error}")
+            return
+        if message.sender != other:
+            self._ignore(f"{other}: a message in the name of {message.sender!r}")
+            return
+        if not self.config.pace.is_lockstep:
+            # The sender's clock may be a tick ahead of this one's; what was heard was said before.
+            sent_ns = min(sent_ns, self._now_ns())
+        self._member.receive(message, sent_ns)
+
+    def _take_tick(self, tick: msg.Tick) -> None:
+        self._ready_timer.cancel()
+        if len(tick.agent_counts) != len(self.config.scenario.agents):
+            self._ignore(f"tick: {len(tick.agent_counts)} counts")
+        elif self.config.pace.is_lockstep:
+            self._tick = tick
+            self._proceed()
+        elif tick.stop:
+            self._stop(tick)
+
+    def _proceed(self) -> None:
+        """Act, if it is time to."""
+        if not self.config.pace.is_lockstep:
+            self._step_freely()
+        elif (tick := self._tick) is not None and self._has_all(tick):
+            self._tick = None
+            if tick.stop:
+                self._stop(tick)
+            else:
+                self._step(tick.time_ns)
+                self._answer(tick.sequence)
+
+    def _stop(self, tick: msg.Tick) -> None:
+        """Act no more; stay until the sim has gone, to send again what somebody has missed."""
+        self._is_stopped = True
+        self._answer(tick.sequence)
+        self.create_timer(_LEAVE_PERIOD_S, self._leave_after_sim, clock=self._steady)
+
+    def _leave_after_sim(self) -> None:
+        self.is_done = self._tick_sub.get_publisher_count() == 0
+
+    def _has_all(self, tick: msg.Tick) -> bool:
+        """Whether everything that a tick counts has arrived."""
+        due = dict(zip(self.config.scenario.agents, tick.agent_counts, strict=True))
+        return (
+            self._odometry_count >= tick.odometry_count
+            and self._connectivity_count >= tick.connectivity_count
+            and all(count >= due[other] for other, count in self._team_counts.items())
+        )
+
+    def _step_freely(self) -> None:
+        """Act now, unless the run hasn't begun."""
+        if not self._odometry_count or self._is_stopped:
+            return
+        self._ready_timer.cancel()
+        self._step(self._now_ns())
+        if self._member.meetings_ended != self._meetings_reported:
+            self._meetings_reported = self._member.meetings_ended
+            self._answer(0)
+
+    def _step(self, now_ns: int) -> None:
+        actions, timing = self._timed.step(now_ns)
+        for action in actions:
+            self._perform(action, now_ns)
+        if timing is not None:
+            self._publish(self._timing_pub, wire.encode_round_timing(timing, now_ns))
+
+    def _perform(self, action: Action, now_ns: int) -> None:
+        match action:
+            case Drive():
+                self._commands += 1
+                self._publish(self._command_pub, wire.encode_drive(action, now_ns))
+            case SendMessage(message):
+                self._team_messages += 1
+                publisher = self._team_pubs[wire.team_topic(message)]
+                self._publish(publisher, wire.encode_message(message, now_ns))
+            case ReportTask(event):
+                name = self.config.name
+                self._publish(self._task_pub, wire.encode_task_event(event, name, now_ns))
+            case HoldStrategy(strategy):
+                self._publish(self._strategy_pub, wire.encode_team_strategy(strategy, now_ns))
+            case CountIgnored(reason):
+                self.ignored[reason] += 1
+            case _:
+                assert_never(action)
+
+    def _publish(self, publisher: Any, message: object) -> None:  # noqa: ANN401 (rclpy's)
+        self._published += 1
+        publisher.publish(message)
+
+    def _answer(self, sequence: int) -> None:
+        need_ns = self._member.next_need_ns
+        self._answer_pub.publish(
+            msg.TickReply(
+                agent=self.config.name,
+                sequence=sequence,
+                ready=self._is_ready,
+                has_next_need=need_ns is not None,
+                next_need_ns=need_ns or 0,
+                team_messages=self._team_messages,
+                commands=self._commands,
+                published=self._published,
+                meetings_ended=self._member.meetings_ended,
+            )
+        )
+
+    def _say_ready(self) -> None:
+        """Tell the sim, again and again until it begins, whether everybody has been found."""
+        if not self._is_ready and self._is_matched():
+            self._is_ready = True
+            self._on_ready()
+        self._answer(0)
+
+    def _is_matched(self) -> bool:
+        """Whether every topic has found those whom it needs."""
+        others, recorders = len(self.config.others), int(self.config.has_recorder)
+        publishers = [
+            (self._answer_pub, 1),
+            (self._command_pub, 1 + recorders),
+            *((publisher, others + recorders) for publisher in self._team_pubs.values()),
+            *((publisher, recorders) for publisher in self._recorded_pubs),
+        ]
+        return all(p.get_subscription_count() >= least for p, least in publishers) and all(
+            subscription.get_publisher_count() for subscription in self._own_subscriptions
+        )
+
+    def _now_ns(self) -> int:
+        return int(self.get_clock().now().nanoseconds)
+
+    def _ignore(self, reason: str) -> None:
+        if reason not in self.ignored and len(self.ignored) >= _MOST_REASONS:
+            reason = "further reasons"
+        self.ignored[reason] += 1
+        if self.ignored[reason] == 1:
+            self.get_logger().warning(f"ignored: {reason}")
+
+
+def run(
+    *,
+    spin: Spin,
+    args: Sequence[str] | None = None,
+    namespace: str | None = None,
+    parameters: Sequence[Parameter] = (),
+    on_started: Callable[[], None] = lambda: None,
+    on_ready: Callable[[], None] = lambda: None,
+) -> bool:
+    """Be an agent until the run is over or a signal comes.
+
+    Args:
+        spin: executes the node's callbacks until a predicate holds.
+        args: the command line with ROS arguments; by default ``sys.argv``.
+        namespace: the agent's name, unless the command line says it.
+        parameters: overrides.
+        on_started: called when the node exists and the agent has planned.
+        on_ready: called when it has found all the others.
+
+    Returns:
+        Whether the run came to its end.
+
+    Raises:
+        InputError: a parameter or the scenario can't be used.
+        PlanningError: the agent's task has no plan.
+        InfeasibleRoundError: the team has no admissible next meeting.
+    """
+    rclpy.init(args=args)
+    try:
+        node = AgentNode(namespace=namespace, parameters=parameters, on_ready=on_ready)
+        on_started()
+        spin(node, lambda: node.is_done)
+        node.get_logger().info(f"done; ignored: {dict(node.ignored)}")
+    except (KeyboardInterrupt, ExternalShutdownException):
+        return False
+    finally:
+        rclpy.try_shutdown()
+    return True
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    """Run an agent; return the exit status."""
+    try:
+        run(spin=_spin, args=args)
+    except (InputError, PlanningError) as error:
+        print(f"agent: {error}", file=sys.stderr)  # noqa: T201 (the one line to the user)
+        return _STATUS_INPUT
+    except TlcommError as error:
+        print(f"agent: {error}", file=sys.stderr)  # noqa: T201 (the one line to the user)
+        return _STATUS_BROKEN
+    return 0
+
+
+def _spin(node: Node, done: Callable[[], bool]) -> None:
+    executor = SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
+    while not done():
+        executor.spin_once()

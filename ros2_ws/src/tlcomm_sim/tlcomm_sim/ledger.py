@@ -1,0 +1,76 @@
+"""How much has been published, so that whoever is ticked can tell what is missing.
+
+``Ledger``  counts since the start, of messages on recorded topics
+"""
+
+from collections.abc import Sequence
+
+from tlcomm_core.world.observation import Connectivity, Odometry
+from tlcomm_sim.outputs import Output, Show, ShowClock, Tick
+
+__all__ = ["Ledger"]
+
+
+class Ledger:
+    """How much has been published on recorded topics since the start."""
+
+    def __init__(self, agents: Sequence[str]) -> None:
+        """Begin with nothing."""
+        self._odometry = dict.fromkeys(agents, 0)
+        self._by_agents = dict.fromkeys(agents, 0)
+        self._connectivity = 0
+        self._clock = 0
+
+    @property
+    def total(self) -> int:
+        """Messages on recorded topics, by sim and agents."""
+        own = sum(self._odometry.values()) + self._connectivity + self._clock
+        return own + sum(self._by_agents.values())
+
+    def note(self, output: Output) -> None:
+        """Count a publication of the sim."""
+        match output:
+            case ShowClock():
+                self._clock += 1
+            case Show(Odometry(agent=agent)):
+                self._odometry[agent] += 1
+            case Show(Connectivity()):
+                self._connectivity += 1
+            case _:
+                pass
+
+    def note_agent(self, agent: str, published: int) -> None:
+        """Note how much an agent says it has published."""
+        self._by_agents[agent] = published
+
+    def agent_tick(
+        self,
+        agent: str,
+        sequence: int,
+        time_ns: int,
+        arrived: Sequence[int],
+        *,
+        stop: bool = False,
+    ) -> Tick:
+        """Return a tick for an agent."""
+        return Tick(
+            sequence=sequence,
+            time_ns=time_ns,
+            odometry_count=self._odometry[agent],
+            connectivity_count=self._connectivity,
+            clock_count=self._clock,
+            agent_counts=tuple(arrived),
+            stop=stop,
+        )
+
+    def recorder_tick(self, sequence: int, time_ns: int, *, stop: bool = False) -> Tick:
+        """Return a tick for the recorder."""
+        return Tick(
+            sequence=sequence,
+            time_ns=time_ns,
+            odometry_count=sum(self._odometry.values()),
+            connectivity_count=self._connectivity,
+            clock_count=self._clock,
+            agent_counts=tuple(self._by_agents.values()),
+            stop=stop,
+        )

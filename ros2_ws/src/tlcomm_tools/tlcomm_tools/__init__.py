@@ -1,0 +1,1 @@
+"""The `tlcomm` command: supervisor of a run, recorder and audit."""

@@ -1,0 +1,9 @@
+"""Bags: rosbag2 folders of MCAP files, written and read without ROS.
+
+``topics``       what a run records
+``definitions``  the message definitions that go inside
+``records``      the encoding of MCAP records
+``writer``       crash-safe writing
+``container``    reading, damaged files included
+``reader``       a bag as ``RunRecords``
+"""

@@ -1,0 +1,224 @@
+"""A bag as ``RunRecords``, without ROS.
+
+``RecordedRun``   a run's records, with what the bag says about itself
+``read_run``      reads a run folder, a bag folder or an MCAP file
+``find_files``    the MCAP files of any of these
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from operator import attrgetter
+from pathlib import Path
+
+import yaml
+from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
+from rosbags.typesys.store import Typestore
+
+from tlcomm_core.errors import InputError
+from tlcomm_core.records import RunRecords
+from tlcomm_tools import wire
+from tlcomm_tools.bag.container import Channel, Container, read_container
+from tlcomm_tools.bag.topics import TEAM_TOPICS
+
+__all__ = ["RecordedRun", "find_files", "read_run"]
+
+_DECODED = {
+    "odom": "nav_msgs/msg/Odometry",
+    "task_event": "tlcomm_msgs/msg/TaskEvent",
+    "team_strategy": "tlcomm_msgs/msg/TeamStrategy",
+    "round_timing": "tlcomm_msgs/msg/RoundTiming",
+}
+_CONNECTIVITY = "tlcomm_msgs/msg/Connectivity"
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedRun:
+    """What a bag says of a run.
+
+    Attributes:
+        records: the run.
+        agents: as the bag's connectivity messages list them, or else sorted.
+        end_ns: the last time recorded.
+        notes: what the recorder wrote about the run (scenario, method, …); empty in others' bags.
+        damage: why reading ended early, or "".
+    """
+
+    records: RunRecords
+    agents: tuple[str, ...]
+    end_ns: int
+    notes: dict[str, str]
+    damage: str
+
+
+def find_files(path: Path) -> tuple[Path, ...]:
+    """Return the MCAP files of a run folder, a bag folder or a file.
+
+    Raises:
+        InputError: there are none.
+    """
+    if path.is_file():
+        return (path,)
+    if not path.is_dir():
+        msg = f"{str(path)!r} doesn't exist (expected a run folder, a bag folder or an MCAP file)"
+        raise InputError(msg)
+    for folder in (path, path / "bag"):
+        files = _listed_files(folder) or tuple(sorted(folder.glob("*.mcap")))
+        if files:
+            return files
+    if next(path.glob("**/*.db3"), None):
+        msg = f"{str(path)!r} is an SQLite bag; only MCAP bags can be read"
+        raise InputError(msg)
+    msg = f"{str(path)!r} holds no bag (expected *.mcap in it or in its folder bag/)"
+    raise InputError(msg)
+
+
+def _listed_files(folder: Path) -> tuple[Path, ...]:
+    """Return the files in the order of ``metadata.yaml``, if it is there and true."""
+    try:
+        document = yaml.safe_load((folder / "metadata.yaml").read_text("utf-8"))
+        names = document["rosbag2_bagfile_information"]["relative_file_paths"]
+        paths = tuple(folder / name for name in names if str(name).endswith(".mcap"))
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, KeyError, TypeError):
+        return ()
+    return paths if all(path.is_file() for path in paths) else ()
+
+
+def read_run(path: Path) -> RecordedRun:
+    """Read a run folder, a bag folder or an MCAP file.
+
+    Returns:
+        The run as far as it can be read; ``damage`` says what can't.
+
+    Raises:
+        InputError: there is no bag, or none of a tlcomm run.
+
+    Cost: about 20 µs per odometry message, 1 µs per message that isn't decoded.
+    """
+    containers = []
+    for file in find_files(path):
+        container = read_container(file, _is_wanted)
+        containers.append(container)
+        if container.damage:
+            break
+    _require_run(path, containers)
+    return _gather(path, containers)
+
+
+def _is_wanted(channel: Channel) -> bool:
+    _, suffix = _split_topic(channel.topic)
+    return channel.type == (
+        _CONNECTIVITY if channel.topic == "/connectivity" else _DECODED.get(suffix)
+    )
+
+
+def _split_topic(topic: str) -> tuple[str, str]:
+    """Return the agent and the topic's own name."""
+    agent, _, suffix = topic.removeprefix("/").rpartition("/")
+    return agent, suffix
+
+
+def _require_run(path: Path, containers: Iterable[Container]) -> None:
+    containers = list(containers)
+    topics = {channel.topic for held in containers for channel in held.channels.values()}
+    needed = ("/connectivity", "/odom", "/task_event")
+    missing = [name for name in needed if not any(topic.endswith(name) for topic in topics)]
+    if missing:
+        msg = f"{str(path)!r} is no bag of a tlcomm run: it has no topic {missing[0].lstrip('/')!r}"
+        raise InputError(msg)
+    if not any(held.messages for held in containers):
+        msg = f"{str(path)!r} is empty: it holds no messages of a run"
+        raise InputError(msg)
+
+
+def _gather(path: Path, containers: list[Container]) -> RecordedRun:
+    collected = _Collected()
+    notes: dict[str, str] = {}
+    for container in containers:
+        notes.update(container.metadata.get("tlcomm", {}))
+        try:
+            collected.take(container)
+        except InputError:
+            raise
+        except Exception as error:
+            msg = f"{str(path)!r} holds a message that can't be decoded: {error}"
+            raise InputError(msg) from error
+    records = collected.records
+    for entries in (records.odometry, records.connectivity, records.tasks, records.strategies):
+        entries.sort(key=attrgetter("stamp_ns"))
+    return RecordedRun(
+        records=records,
+        agents=collected.agents or tuple(sorted(records.messages_sent)),
+        end_ns=max((held.end_ns for held in containers if held.end_ns is not None), default=0),
+        notes=notes,
+        damage=next((held.damage for held in containers if held.damage), ""),
+    )
+
+
+class _Collected:
+    """Records gathered from containers."""
+
+    def __init__(self) -> None:
+        self.records = RunRecords()
+        self.agents: tuple[str, ...] = ()
+
+    def take(self, container: Container) -> None:
+        """Decode a container's messages and count the others."""
+        store = _make_typestore(container.channels.values())
+        takers = {
+            number: self._taker(channel)
+            for number, channel in container.channels.items()
+            if _is_wanted(channel)
+        }
+        types = {number: channel.type for number, channel in container.channels.items()}
+        decode = store.deserialize_cdr
+        for number, _, data in container.messages:
+            takers[number](decode(data, types[number]))
+        for number, channel in container.channels.items():
+            self._count(channel, container.counts.get(number, 0))
+
+    def _count(self, channel: Channel, count: int) -> None:
+        agent, suffix = _split_topic(channel.topic)
+        sent = self.records.messages_sent
+        if agent and suffix in TEAM_TOPICS:
+            sent[agent] = sent.get(agent, 0) + count
+        elif agent and suffix == "odom":
+            sent.setdefault(agent, 0)
+
+    def _taker(self, channel: Channel) -> Callable[[wire.DecodedMessage], None]:
+        agent, suffix = _split_topic(channel.topic)
+        records = self.records
+        match suffix:
+            case "odom":
+                return lambda message: records.odometry.append(wire.read_odometry(message, agent))
+            case "task_event":
+                return lambda message: records.tasks.append(wire.read_task_event(message))
+            case "team_strategy":
+                return lambda message: records.strategies.append(
+                    wire.read_team_strategy(message, agent)
+                )
+            case "round_timing":
+                return lambda message: records.timings.append(wire.read_round_timing(message))
+            case _:
+                return self._take_connectivity
+
+    def _take_connectivity(self, message: wire.DecodedMessage) -> None:
+        self.agents = self.agents or tuple(message.agents)
+        self.records.connectivity.append(wire.read_connectivity(message))
+
+
+def _make_typestore(channels: Iterable[Channel]) -> Typestore:
+    """Return the types that the file itself defines."""
+    store = get_typestore(Stores.EMPTY)
+    types = {}
+    for channel in channels:
+        if not _is_wanted(channel):
+            continue
+        if channel.encoding != "cdr":
+            msg = f"topic {channel.topic!r} is encoded as {channel.encoding!r}, expected 'cdr'"
+            raise InputError(msg)
+        if channel.definition_encoding == "ros2idl":
+            types.update(get_types_from_idl(channel.definition))
+        elif channel.type not in types:
+            types.update(get_types_from_msg(channel.definition, channel.type))
+    store.register(types)
+    return store

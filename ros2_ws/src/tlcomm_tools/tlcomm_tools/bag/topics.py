@@ -1,0 +1,58 @@
+"""What a run records.
+
+``Topic``            a recorded topic
+``recorded_topics``  all of them, for a team
+``TEAM_TOPICS``      the topics that agents talk on
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+__all__ = ["AGENT_TOPICS", "TEAM_TOPICS", "Topic", "recorded_topics"]
+
+AGENT_TOPICS = {
+    "odom": "nav_msgs/msg/Odometry",
+    "cmd_vel": "geometry_msgs/msg/TwistStamped",
+    "task_event": "tlcomm_msgs/msg/TaskEvent",
+    "team_strategy": "tlcomm_msgs/msg/TeamStrategy",
+    "plan_offer": "tlcomm_msgs/msg/PlanOffer",
+    "best_response": "tlcomm_msgs/msg/BestResponse",
+    "confirmation": "tlcomm_msgs/msg/Confirmation",
+    "estimate": "tlcomm_msgs/msg/Estimate",
+    "round_timing": "tlcomm_msgs/msg/RoundTiming",
+}
+TEAM_TOPICS = ("plan_offer", "best_response", "confirmation")
+_LATCHED = "team_strategy"
+
+
+@dataclass(frozen=True, slots=True)
+class Topic:
+    """A recorded topic.
+
+    Attributes:
+        name: absolute.
+        type: as ``package/msg/Name``.
+        agent: whose it is, or "" for the simulation's own.
+        latched: whether it is offered transient local.
+    """
+
+    name: str
+    type: str
+    agent: str = ""
+    latched: bool = False
+
+
+def recorded_topics(agents: Iterable[str]) -> tuple[Topic, ...]:
+    """Return every topic that a run of these agents records."""
+    own = [
+        Topic("/clock", "rosgraph_msgs/msg/Clock"),
+        Topic("/connectivity", "tlcomm_msgs/msg/Connectivity"),
+    ]
+    return (
+        *own,
+        *(
+            Topic(f"/{agent}/{suffix}", type_name, agent, latched=suffix == _LATCHED)
+            for agent in agents
+            for suffix, type_name in AGENT_TOPICS.items()
+        ),
+    )

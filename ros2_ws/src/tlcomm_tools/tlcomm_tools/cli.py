@@ -1,0 +1,118 @@
+"""The ``tlcomm`` command: finds the verb, runs it, turns errors into exit statuses.
+
+``main``    the entry point
+``VERBS``   the verbs, with their modules and one line each
+
+Each verb's module is imported only when it is asked for, so that the command starts at once.
+"""
+
+import argparse
+import errno
+import os
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from typing import Final, NoReturn
+
+from tlcomm_core.errors import InfeasibleRoundError, InputError, PlanningError
+from tlcomm_tools.status import Status
+
+__all__ = ["VERBS", "main"]
+
+VERBS: Final = {
+    "demo": "the plant scenario: one process per agent, recorded, with a summary",
+    "run": "run a scenario with one ROS 2 process per agent",
+    "simulate": "run a scenario inside one process, without ROS",
+    "plan": "show each agent's local plan",
+    "ltl": "translate a formula into a Büchi automaton",
+    "round": "show one round's problem and its solution",
+    "check": "audit a run from its bag",
+    "validate": "check a scenario file",
+    "bench": "measure planning, solving and simulating",
+}
+_HELP: Final = ("-h", "--help")
+_TOLD_BY_FILE: Final = {errno.ENOSPC, errno.EDQUOT, errno.EIO}
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser whose errors are ``InputError``s."""
+
+    def error(self, message: str) -> NoReturn:
+        raise InputError(f"{message} (see '{self.prog} --help')")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command.
+
+    Args:
+        argv: arguments without the program's name; by default the process's.
+
+    Returns:
+        The exit status of the contract.
+    """
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    try:
+        return _dispatch(arguments)
+    except (InputError, PlanningError) as error:
+        return _report(str(error), Status.BAD_INPUT)
+    except InfeasibleRoundError as error:
+        return _report(str(error), Status.BROKEN)
+    except KeyboardInterrupt:
+        return _report("interrupted", Status.INTERRUPTED)
+    except BrokenPipeError:
+        # Nobody reads on, ``head`` for instance: Python would complain once more at its exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return Status.FINE
+    except OSError as error:
+        status = Status.BROKEN if error.errno in _TOLD_BY_FILE else Status.BAD_INPUT
+        place = "" if error.filename is None else f"{str(error.filename)!r}: "
+        return _report(f"{place}{error.strerror}", status)
+
+
+def _dispatch(arguments: Sequence[str]) -> int:
+    if not arguments or arguments[0] in _HELP:
+        print(_overview())
+        return Status.FINE if arguments else Status.BAD_INPUT
+    verb, *rest = arguments
+    if verb not in VERBS:
+        raise InputError(f"unknown verb {verb!r} (the verbs are {', '.join(VERBS)})")
+    module = import_module(f"tlcomm_tools.verbs.{verb}")
+    parser = _Parser(
+        prog=f"tlcomm {verb}",
+        description=module.__doc__,
+        epilog=f"example: {module.EXAMPLE}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    module.add_arguments(parser)
+    try:
+        options = parser.parse_args(rest)
+    except SystemExit:  # --help
+        return Status.FINE
+    status: Status = module.run(options)
+    return status
+
+
+def _overview() -> str:
+    width = max(map(len, VERBS))
+    lines = [f"  {verb:{width}}  {summary}" for verb, summary in VERBS.items()]
+    return "\n".join(
+        [
+            "usage: tlcomm VERB [OPTION…]",
+            "",
+            *lines,
+            "",
+            "Every verb has --help and --json.",
+            "Exit status: 0 all well, 1 a property failed, 2 bad input, 3 the run broke,",
+            "130 interrupted.",
+            "",
+            "example: tlcomm demo",
+        ]
+    )
+
+
+def _report(message: str, status: Status) -> Status:
+    line = " ".join(message.split("\n"))
+    print(f"tlcomm: error: {line}", file=sys.stderr)
+    return status

@@ -1,0 +1,190 @@
+"""A run as processes: its folder, its processes, and its results from its bag.
+
+``RunOptions``   what is run
+``RunReport``    how it went
+``run_mission``  runs it
+"""
+
+import os
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, assert_never
+
+from tlcomm_core.errors import InputError
+from tlcomm_core.metrics import RunFacts, result_document
+from tlcomm_core.pace import Pace
+from tlcomm_core.records import RunRecords
+from tlcomm_core.scenario.loader import dumps
+from tlcomm_core.scenario.model import Scenario
+from tlcomm_tools.bag.reader import RecordedRun, read_run
+from tlcomm_tools.folder import RunFolder
+from tlcomm_tools.limit import time_limit_s
+from tlcomm_tools.runtime.domain import claim_domain, process_environment
+from tlcomm_tools.runtime.notify import Note, Progress
+from tlcomm_tools.runtime.supervisor import (
+    ProcessSpec,
+    RunFailed,
+    RunFinished,
+    RunInterrupted,
+    RunOutcome,
+    run_processes,
+)
+from tlcomm_tools.status import Status
+
+__all__ = ["RunOptions", "RunReport", "run_mission"]
+
+_PROCESS = ("-P", "-m", "tlcomm_tools.runtime.process")
+
+
+@dataclass(frozen=True, slots=True)
+class RunOptions:
+    """What is run.
+
+    Attributes:
+        scenario: the scenario.
+        method: of coordination.
+        solver: of the rounds.
+        seed: of all noise.
+        pace: lock step or a factor.
+        rounds: the run ends D_c after the meeting of this round, or ``None``.
+        until_s: the run ends at this simulated time, or ``None``.
+        out: folder to write to, or ``None`` for a new one.
+    """
+
+    scenario: Scenario
+    method: str
+    solver: str
+    seed: int
+    pace: Pace
+    rounds: int | None
+    until_s: float | None
+    out: Path | None
+
+
+@dataclass(frozen=True, slots=True)
+class RunReport:
+    """How a run went.
+
+    Attributes:
+        result: the result document.
+        folder: all that the run left behind.
+        status: for the command's exit.
+        failure: who broke the run, why, and the end of its log; or ``None``.
+    """
+
+    result: dict[str, Any]
+    folder: RunFolder
+    status: Status
+    failure: RunFailed | None
+
+
+def run_mission(options: RunOptions, on_progress: Callable[[float, int], None]) -> RunReport:
+    """Run a scenario with a process per agent; write its results, whatever happens.
+
+    Args:
+        options: what to run.
+        on_progress: called with the simulated time (s) and the number of meetings that have ended.
+
+    Raises:
+        InputError: the folder can't be used, or the processes are too many for this machine.
+    """
+    folder = RunFolder.create(options.scenario.name, options.method, options.out)
+    folder.write_scenario(dumps(options.scenario))
+    folder.logs.mkdir()
+    last = Progress(0.0, 0)
+
+    def note(_: str, news: Note) -> None:
+        nonlocal last
+        if isinstance(news, Progress):
+            last = news
+            on_progress(news.sim_s, news.meetings_ended)
+
+    specs = _specs(options, folder)
+    begun_s = time.monotonic()
+    with claim_domain() as domain:
+        environment = process_environment(os.environ, domain, folder.logs.absolute(), len(specs))
+        outcome = run_processes(specs, environment, note)
+    wall_s = time.monotonic() - begun_s
+    return _report(options, folder, outcome, wall_s, last)
+
+
+def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
+    """Return the recorder, the sim and the agents, in the order in which they start."""
+    scenario = ("--scenario", str(folder.scenario.absolute()))
+    common = (*scenario, "--pace", str(options.pace), "--recorder")
+    limit_s = time_limit_s(options.scenario, options.rounds, options.until_s)
+    end: tuple[str, ...] = ("--seed", str(options.seed), "--until", repr(limit_s))
+    if options.rounds is not None:
+        end += ("--rounds", str(options.rounds))
+
+    def spec(name: str, *arguments: str, stop_last: bool = False) -> ProcessSpec:
+        command = (sys.executable, *_PROCESS, *arguments)
+        return ProcessSpec(name, command, folder.logs / f"{name}.log", stop_last)
+
+    bag = ("--bag", str(folder.bag.absolute()))
+    return [
+        spec("recorder", "recorder", *bag, *scenario, stop_last=True),
+        spec("sim", "sim", *common, *end),
+        *(spec(name, "agent", "--name", name, *common) for name in options.scenario.agents),
+    ]
+
+
+def _report(
+    options: RunOptions, folder: RunFolder, outcome: RunOutcome, wall_s: float, last: Progress
+) -> RunReport:
+    recorded, failures = _read_bag(folder)
+    failure = outcome if isinstance(outcome, RunFailed) else None
+    facts = RunFacts(
+        method=options.method,
+        solver=options.solver,
+        seed=options.seed,
+        pace="lockstep" if options.pace.factor is None else options.pace.factor,
+        sim_s=_simulated_s(recorded, outcome, last),
+        wall_s=wall_s,
+        failures=(*_failures(outcome), *failures),
+    )
+    records = RunRecords() if recorded is None else recorded.records
+    result = result_document(options.scenario, records, facts)
+    folder.write_results(result, records)
+    return RunReport(result, folder, _status(outcome, result), failure)
+
+
+def _read_bag(folder: RunFolder) -> tuple[RecordedRun | None, Sequence[str]]:
+    try:
+        recorded = read_run(folder.bag)
+    except InputError as error:
+        return None, (f"nothing was recorded: {error}",)
+    return recorded, (f"the bag is damaged: {recorded.damage}",) if recorded.damage else ()
+
+
+def _simulated_s(recorded: RecordedRun | None, outcome: RunOutcome, last: Progress) -> float:
+    """Return the time at the end; of a run that broke, the last time recorded."""
+    recorded_s = 0.0 if recorded is None else recorded.end_ns * 1e-9
+    return max(recorded_s, last.sim_s) if isinstance(outcome, RunFinished) else recorded_s
+
+
+def _failures(outcome: RunOutcome) -> tuple[str, ...]:
+    match outcome:
+        case RunFinished():
+            return ()
+        case RunInterrupted():
+            return ("interrupted",)
+        case RunFailed(name, reason):
+            return (f"{name}: {reason}",)
+        case _:
+            assert_never(outcome)
+
+
+def _status(outcome: RunOutcome, result: dict[str, Any]) -> Status:
+    match outcome:
+        case RunFinished():
+            return Status.FINE if result["verdict"] == "ok" else Status.PROPERTY_FAILED
+        case RunInterrupted():
+            return Status.INTERRUPTED
+        case RunFailed(status=status):
+            return Status(status)
+        case _:
+            assert_never(outcome)

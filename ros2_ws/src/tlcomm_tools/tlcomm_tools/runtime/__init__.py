@@ -1,0 +1,1 @@
+"""What runs a team as processes: environment, supervision, notification, spinning."""

@@ -1,0 +1,119 @@
+"""A ROS domain that nobody else uses, and the environment of a run's processes.
+
+``claim_domain``         a free ROS_DOMAIN_ID, held while the context lasts
+``process_environment``  what a run's processes inherit
+``LOCALHOST_PROCESSES``  how many processes find each other without leaving this machine
+"""
+
+import fcntl
+import os
+import socket
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO
+
+from tlcomm_core.errors import InputError
+
+__all__ = ["LOCALHOST_PROCESSES", "claim_domain", "process_environment"]
+
+LOCALHOST_PROCESSES = 30
+_DOMAINS = range(1, 102)
+_PORT_BASE = 7400
+_PORTS_PER_DOMAIN = 250
+_PROBED_PORTS = 24
+
+
+@contextmanager
+def claim_domain(directory: Path | None = None) -> Iterator[int]:
+    """Yield a ROS_DOMAIN_ID in 1..101 that is free on this machine.
+
+    Runs of this project keep apart by a locked file per domain; programs that know nothing of the
+    files are found by their UDP ports (the domain's multicast port and first unicast ports).
+
+    Args:
+        directory: where the lock files are; by default the system's folder for temporary files.
+
+    Raises:
+        InputError: all domains are taken.
+    """
+    folder = Path(tempfile.gettempdir()) if directory is None else directory
+    for domain in _DOMAINS:
+        lock = _lock(folder / f"tlcomm-domain-{domain}.lock")
+        if lock is None:
+            continue
+        with lock:
+            if _ports_are_free(domain):
+                yield domain
+                return
+    message = f"no ROS domain from {_DOMAINS[0]} to {_DOMAINS[-1]} is free on this machine"
+    raise InputError(message)
+
+
+def process_environment(
+    inherited: Mapping[str, str], domain: int, log_folder: Path, processes: int
+) -> dict[str, str]:
+    """Return the environment for a run's processes.
+
+    Args:
+        inherited: usually ``os.environ``; what it says of the discovery range is respected.
+        domain: the ROS_DOMAIN_ID.
+        log_folder: where rcl's own logs go.
+        processes: how many there will be.
+
+    Raises:
+        InputError: they are too many for discovery on this machine only.
+    """
+    discovery = inherited.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    if discovery == "LOCALHOST" and processes > LOCALHOST_PROCESSES:
+        message = (
+            f"{processes} processes, but only {LOCALHOST_PROCESSES} find each other with "
+            "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST: set it to SUBNET"
+        )
+        raise InputError(message)
+    return {
+        **inherited,
+        "ROS_DOMAIN_ID": str(domain),
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": discovery,
+        "ROS_LOG_DIR": str(log_folder),
+        "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
+        # No shared-memory transport: a killed process then leaves nothing in /dev/shm.
+        "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
+        # One process computes on one core; the others have agents of their own.
+        "OPENBLAS_NUM_THREADS": "1",
+        "OMP_NUM_THREADS": "1",
+        "PYTHONUNBUFFERED": "1",
+    }
+
+
+def _lock(path: Path) -> IO[bytes] | None:
+    """Return the open, locked file, or None when another process or user holds it."""
+    try:
+        fd = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
+    except OSError:
+        return None
+    file = os.fdopen(fd, "r+b")
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        file.close()
+        return None
+    return file
+
+
+def _ports_are_free(domain: int) -> bool:
+    """Probe the multicast port (+0) and the first participants' unicast ports (+10 …)."""
+    first = _PORT_BASE + _PORTS_PER_DOMAIN * domain
+    return all(
+        _port_is_free(port) for port in (first, *range(first + 10, first + 10 + _PROBED_PORTS))
+    )
+
+
+def _port_is_free(port: int) -> bool:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.bind(("", port))
+        except OSError:
+            return False
+    return True

@@ -1,0 +1,140 @@
+"""A supervised process of a run: ``python -m tlcomm_tools.runtime.process {agent|sim|recorder}``.
+
+``main``           the process
+``agent_command``, ``sim_command``, ``recorder_command``  the command lines that start one
+"""
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Final
+
+from rclpy.parameter import Parameter
+
+from tlcomm_core.errors import InputError, PlanningError, TlcommError
+from tlcomm_core.pace import parse_pace
+from tlcomm_tools.runtime.notify import (
+    Failed,
+    Finished,
+    Notifier,
+    Progress,
+    Ready,
+    Started,
+    watch_parent,
+)
+from tlcomm_tools.runtime.spin import spin
+
+__all__ = ["main"]
+
+_STATUS_INPUT: Final = 2
+_STATUS_BROKEN: Final = 3
+_NS_PER_S: Final = 1e9
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one process of a run and tell its supervisor how it goes; return the exit status."""
+    watch_parent()
+    notifier = Notifier.from_environment()
+    arguments = _parser().parse_args(argv)
+    work: Callable[[argparse.Namespace, Notifier], int] = arguments.work
+    try:
+        return work(arguments, notifier)
+    except (InputError, PlanningError) as error:
+        return _fail(notifier, error, _STATUS_INPUT)
+    except TlcommError as error:
+        return _fail(notifier, error, _STATUS_BROKEN)
+
+
+def _fail(notifier: Notifier, error: TlcommError, status: int) -> int:
+    print(error, file=sys.stderr)
+    notifier.tell(Failed(str(error), status))
+    return status
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="process", description="A process of a run.")
+    roles = parser.add_subparsers(required=True, metavar="ROLE")
+    agent = roles.add_parser("agent", help="an agent")
+    agent.add_argument("--name", required=True)
+    sim = roles.add_parser("sim", help="world and clock")
+    sim.add_argument("--seed", type=int, default=0)
+    sim.add_argument("--rounds", type=int)
+    sim.add_argument("--until", type=float, metavar="S")
+    recorder = roles.add_parser("recorder", help="the recorder")
+    recorder.add_argument("--bag", type=Path, required=True)
+    recorder.add_argument("--scenario", required=True)
+    for role in (agent, sim):
+        role.add_argument("--scenario", required=True)
+        role.add_argument("--pace", required=True)
+        role.add_argument("--recorder", action="store_true", help="wait for a recorder")
+    agent.set_defaults(work=_be_agent)
+    sim.set_defaults(work=_be_sim)
+    recorder.set_defaults(work=_be_recorder)
+    return parser
+
+
+def _be_agent(arguments: argparse.Namespace, notifier: Notifier) -> int:
+    from tlcomm_agent import node  # noqa: PLC0415 (each role loads its own part only)
+
+    is_over = node.run(
+        spin=spin,
+        args=[],
+        namespace=arguments.name,
+        parameters=[
+            *_common(arguments),
+            Parameter("use_sim_time", value=not parse_pace(arguments.pace).is_lockstep),
+        ],
+        on_started=lambda: notifier.tell(Started()),
+        on_ready=lambda: notifier.tell(Ready()),
+    )
+    return _leave(notifier, is_over=is_over)
+
+
+def _be_sim(arguments: argparse.Namespace, notifier: Notifier) -> int:
+    from tlcomm_sim import node  # noqa: PLC0415 (each role loads its own part only)
+
+    chosen = {"rounds": arguments.rounds, "until_s": arguments.until}
+    is_over = node.run(
+        spin=spin,
+        args=[],
+        parameters=[
+            *_common(arguments),
+            Parameter("seed", value=arguments.seed),
+            *(Parameter(name, value=value) for name, value in chosen.items() if value is not None),
+        ],
+        on_started=lambda: notifier.tell(Started()),
+        on_ready=lambda: notifier.tell(Ready()),
+        on_progress=lambda sim_ns, meetings_ended: notifier.tell(
+            Progress(sim_ns / _NS_PER_S, meetings_ended)
+        ),
+    )
+    return _leave(notifier, is_over=is_over)
+
+
+def _be_recorder(arguments: argparse.Namespace, notifier: Notifier) -> int:
+    from tlcomm_core.scenario.loader import dumps, load_scenario  # noqa: PLC0415 (as above)
+    from tlcomm_tools.runtime import recorder  # noqa: PLC0415 (as above)
+
+    scenario = load_scenario(arguments.scenario)
+    notes = {"scenario": dumps(scenario)}
+    settings = recorder.RecorderSettings(arguments.bag, tuple(scenario.agents), notes)
+    return recorder.run(settings, spin, notifier)
+
+
+def _common(arguments: argparse.Namespace) -> list[Parameter]:
+    return [
+        Parameter("scenario", value=arguments.scenario),
+        Parameter("pace", value=arguments.pace),
+        Parameter("recorder", value=arguments.recorder),
+    ]
+
+
+def _leave(notifier: Notifier, *, is_over: bool) -> int:
+    if is_over:
+        notifier.tell(Finished())
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

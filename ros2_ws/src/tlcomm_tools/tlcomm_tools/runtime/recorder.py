@@ -1,0 +1,210 @@
+"""The recorder: a ROS 2 node that writes every topic of a run into a bag.
+
+``RecorderSettings``  what to record, and where to
+``run``               the process's whole life
+``Recorder``          the node
+
+In lock step it takes part like an agent: a tick says how many messages have been published, and is
+answered only when all of them have arrived. So nothing can be missing without being noticed.
+"""
+
+import struct
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import rclpy
+from ament_index_python.packages import get_package_share_directory
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+from rclpy.duration import Duration
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
+from rclpy.signals import SignalHandlerOptions
+
+from tlcomm_msgs.msg import Tick, TickReply
+from tlcomm_tools.bag.definitions import load_typestore, read_definition
+from tlcomm_tools.bag.topics import Topic, recorded_topics
+from tlcomm_tools.bag.writer import BagWriter
+from tlcomm_tools.runtime.ledger import Expected, Ledger
+from tlcomm_tools.runtime.notify import Failed, Finished, Notifier, Ready, Started
+
+__all__ = ["Recorder", "RecorderSettings", "run"]
+
+_NAME = "recorder"
+_DEPTH = 1000
+_PERIOD_S = 0.1
+_ACKNOWLEDGED_S = 2.0
+_STATUS_BROKEN = 3
+_NS_PER_S = 1_000_000_000
+# Every recorded type begins with a stamp, behind the four bytes of the encapsulation.
+_STAMP = struct.Struct("<iI")
+_STAMP_OFFSET = 4
+
+Spin = Callable[[Node, Callable[[], bool]], None]
+
+
+@dataclass(frozen=True, slots=True)
+class RecorderSettings:
+    """What to record, and where to.
+
+    Attributes:
+        bag: the bag's folder, which doesn't exist yet.
+        agents: in the scenario's order.
+        notes: what the bag says about the run besides its messages.
+    """
+
+    bag: Path
+    agents: tuple[str, ...]
+    notes: dict[str, str] = field(default_factory=dict)
+
+
+def run(settings: RecorderSettings, spin: Spin, notifier: Notifier) -> int:
+    """Record until told to stop or shut down; return the exit status.
+
+    A bag that can't be written any more is reported, and what was written stays readable.
+    """
+    try:
+        writer = _open_bag(settings)
+    except OSError as error:
+        notifier.tell(Failed(f"can't write {str(settings.bag)!r}: {error.strerror}", 2))
+        return 2
+    try:
+        with writer:
+            is_over = _record(settings, writer, spin, notifier)
+    except OSError as error:
+        reason = f"can't write {str(settings.bag)!r} any more: {error.strerror}"
+        notifier.tell(Failed(reason, _STATUS_BROKEN))
+        return _STATUS_BROKEN
+    if is_over:
+        notifier.tell(Finished())
+    return 0
+
+
+def _open_bag(settings: RecorderSettings) -> BagWriter:
+    topics = recorded_topics(settings.agents)
+    store = load_typestore(Path(get_package_share_directory("tlcomm_msgs")))
+    definitions = {topic.type: read_definition(store, topic.type) for topic in topics}
+    return BagWriter(settings.bag, topics, definitions, settings.notes)
+
+
+def _record(settings: RecorderSettings, writer: BagWriter, spin: Spin, notifier: Notifier) -> bool:
+    """Record; return whether the run came to its end."""
+    context = rclpy.Context()
+    rclpy.init(context=context, signal_handler_options=SignalHandlerOptions.ALL)
+    node = None
+    try:
+        node = Recorder(settings, writer, notifier, context)
+        notifier.tell(Started())
+        spin(node, lambda: node.is_done)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        return False
+    finally:
+        if node is not None:
+            node.destroy_node()
+        rclpy.try_shutdown(context=context)
+    return True
+
+
+class Recorder(Node):
+    """Writes whatever arrives; answers ticks when everything has arrived."""
+
+    def __init__(
+        self,
+        settings: RecorderSettings,
+        writer: BagWriter,
+        notifier: Notifier,
+        context: rclpy.Context,
+    ) -> None:
+        """Subscribe to every recorded topic."""
+        super().__init__(
+            _NAME,
+            context=context,
+            use_global_arguments=False,
+            enable_rosout=False,
+            start_parameter_services=False,
+            # A node without services can be spun fast.
+            parameter_overrides=[Parameter("start_type_description_service", value=False)],
+        )
+        self.is_done = False
+        self._writer = writer
+        self._notifier = notifier
+        self._is_ready = False
+        self._is_running = False
+        self._tick: Tick | None = None
+        topics = recorded_topics(settings.agents)
+        self._ledger = Ledger(topics, settings.agents)
+        self._recorded = [self._subscribe(number, topic) for number, topic in enumerate(topics)]
+        self.create_subscription(Tick, f"{_NAME}/tick", self._on_tick, _qos(latched=False))
+        self._replies = self.create_publisher(TickReply, "tick_reply", _qos(latched=False))
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(_PERIOD_S, self._on_timer, clock=steady)
+
+    def _subscribe(self, number: int, topic: Topic) -> Any:  # noqa: ANN401 - rclpy is untyped
+        package, _, name = topic.type.split("/")
+        message_type = getattr(import_module(f"{package}.msg"), name)
+
+        def take(data: bytes) -> None:
+            self._take(number, data)
+
+        return self.create_subscription(
+            message_type, topic.name, take, _qos(latched=topic.latched), raw=True
+        )
+
+    def _take(self, number: int, data: bytes) -> None:
+        seconds, nanoseconds = _STAMP.unpack_from(data, _STAMP_OFFSET)
+        self._writer.write(number, seconds * _NS_PER_S + nanoseconds, data)
+        self._ledger.count(number)
+        self._is_running = True
+        if self._tick is not None:
+            self._answer_when_complete(self._tick)
+
+    def _on_tick(self, tick: Tick) -> None:
+        self._is_running = True
+        self._tick = tick
+        self._answer_when_complete(tick)
+
+    def _answer_when_complete(self, tick: Tick) -> None:
+        expected = Expected(
+            odometry=tick.odometry_count,
+            connectivity=tick.connectivity_count,
+            clock=tick.clock_count,
+            agents=tuple(tick.agent_counts),
+        )
+        if not self._ledger.is_complete(expected):
+            return
+        self._tick = None
+        if tick.stop:
+            self._writer.flush()
+        self._reply(tick.sequence)
+        if tick.stop:
+            self._replies.wait_for_all_acked(Duration(seconds=_ACKNOWLEDGED_S))
+            self.is_done = True
+
+    def _on_timer(self) -> None:
+        self._writer.flush_if_due()
+        if self._is_running:
+            return
+        if not self._is_ready and self._is_matched():
+            self._is_ready = True
+            self._notifier.tell(Ready())
+        self._reply(0)
+
+    def _is_matched(self) -> bool:
+        return self._replies.get_subscription_count() > 0 and all(
+            subscription.get_publisher_count() > 0 for subscription in self._recorded
+        )
+
+    def _reply(self, sequence: int) -> None:
+        self._replies.publish(TickReply(agent=_NAME, sequence=sequence, ready=self._is_ready))
+
+
+def _qos(*, latched: bool) -> QoSProfile:
+    durability = QoSDurabilityPolicy.TRANSIENT_LOCAL if latched else QoSDurabilityPolicy.VOLATILE
+    return QoSProfile(
+        depth=_DEPTH, reliability=QoSReliabilityPolicy.RELIABLE, durability=durability
+    )

@@ -1,0 +1,102 @@
+"""A run's results for people.
+
+``format_summary``  the text
+"""
+
+import statistics
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from tlcomm_tools.folder import RunFolder
+from tlcomm_tools.table import format_number, format_table
+
+__all__ = ["format_summary"]
+
+_SHOWN_ROUNDS = 12
+_SHOWN_FAILURES = 20
+
+
+def format_summary(result: Mapping[str, Any], folder: RunFolder, *, has_bag: bool) -> str:
+    """Return a summary for a terminal of 80 columns.
+
+    Args:
+        result: the result document.
+        folder: where everything is.
+        has_bag: whether there is a bag to check.
+    """
+    links = result["communication"]
+    wall = format_number(result["wall_s"], 1, "s")
+    factor = format_number(result["realtime_factor"], 1, "× real time")
+    parts = [
+        "{scenario}, method {method}, solver {solver}, seed {seed}, pace {pace}".format(**result),
+        _format_verdict(result["verdict"]),
+        "",
+        f"  windows kept     {links['satisfied']} of {links['windows']}",
+        f"  simulated        {format_number(result['sim_s'], 1, 's')} in {wall}, {factor}",
+        *_format_times(result["rounds"]),
+        "",
+        _format_agents(result["agents"]),
+    ]
+    if result["rounds"]:
+        parts += ["", _format_rounds(result["rounds"])]
+    parts += ["", f"files   {folder.path}"]
+    if has_bag:
+        parts.append(f"check   scripts/tlcomm check {folder.path}")
+    return "\n".join(parts)
+
+
+def _format_verdict(verdict: str | Sequence[str]) -> str:
+    if isinstance(verdict, str):
+        return f"verdict: {verdict}"
+    shown = [f"  - {line}" for line in verdict[:_SHOWN_FAILURES]]
+    if len(verdict) > _SHOWN_FAILURES:
+        shown.append(f"  … and {len(verdict) - _SHOWN_FAILURES} more")
+    return "\n".join(["verdict: FAILED", *shown])
+
+
+def _format_times(rounds: Sequence[Mapping[str, Any]]) -> list[str]:
+    lines = []
+    for name, key in (("own computing", "solve_wall_s"), ("coordination", "coordination_wall_s")):
+        times_s = [own[key] for own in rounds if own[key] is not None]
+        if times_s:
+            lines.append(
+                f"  {name:15}  median {1e3 * statistics.median(times_s):.1f} ms, "
+                f"at most {1e3 * max(times_s):.1f} ms per round"
+            )
+    return lines
+
+
+def _format_agents(agents: Mapping[str, Mapping[str, Any]]) -> str:
+    rows = [
+        (
+            name,
+            str(own["tasks_satisfied"]),
+            format_number(own["makespan_s"]),
+            format_number(own["distance_m"]),
+            format_number(own["messages_sent"], 0),
+        )
+        for name, own in agents.items()
+    ]
+    return format_table(("agent", "tasks", "makespan/s", "distance/m", "messages"), rows)
+
+
+def _format_rounds(rounds: Sequence[Mapping[str, Any]]) -> str:
+    shown = rounds[-_SHOWN_ROUNDS:]
+    rows = []
+    for own in shown:
+        extra_s = [value for value in own["additional_time"].values() if value is not None]
+        rows.append(
+            (
+                str(own["round"]),
+                format_number(own["t_c"]),
+                format_number(own["initial_potential"]),
+                format_number(own["potential"]),
+                str(own["iterations"]),
+                format_number(sum(extra_s) if extra_s else None),
+                format_number(max(extra_s, default=None)),
+            )
+        )
+    header = ("round", "t_c/s", "Φ(S⁰)/s", "Φ/s", "moves", "additional/s", "worst agent/s")
+    table = format_table(header, rows, left=0)
+    left_out = len(rounds) - len(shown)
+    return f"  … {left_out} rounds before\n{table}" if left_out else table

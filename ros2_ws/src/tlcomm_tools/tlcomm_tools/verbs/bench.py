@@ -1,0 +1,124 @@
+"""Measure planning, solving a round and simulating: medians over repeats, on this machine."""
+
+import statistics
+import time
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, Final
+
+from tlcomm_core.agent.member import local_plan
+from tlcomm_core.game.algorithm import solve
+from tlcomm_core.mission import Mission
+from tlcomm_core.scenario.loader import load_scenario
+from tlcomm_core.scenario.site import Site
+from tlcomm_core.simulation import simulate
+from tlcomm_core.units import seconds
+from tlcomm_core.workspace.travel import TravelTimes
+from tlcomm_tools.limit import time_limit_s
+from tlcomm_tools.rounds import pose_round
+from tlcomm_tools.status import Status
+from tlcomm_tools.table import format_number, format_table
+from tlcomm_tools.verbs.options import positive_int, print_json
+
+__all__ = ["EXAMPLE", "add_arguments", "run"]
+
+EXAMPLE: Final = "tlcomm bench scenarios/plant.yaml scenarios/corridor.yaml --repeats 5"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    parser.add_argument(
+        "scenarios", type=Path, nargs="+", metavar="SCENARIO", help="scenario files (YAML)"
+    )
+    parser.add_argument(
+        "--repeats", type=positive_int, default=3, metavar="N", help="of everything (default 3)"
+    )
+    parser.add_argument(
+        "--rounds", type=positive_int, default=10, metavar="N", help="to simulate (default 10)"
+    )
+
+
+def run(options: Namespace) -> Status:
+    """Measure and show the table."""
+    sites = [Site.from_scenario(load_scenario(path)) for path in options.scenarios]
+    measured = [_measure(site, options.repeats, options.rounds) for site in sites]
+    if options.json:
+        print_json(
+            {
+                "format": "tlcomm-bench/1",
+                "repeats": options.repeats,
+                "rounds": options.rounds,
+                "scenarios": measured,
+            }
+        )
+    else:
+        print(_format_measured(measured, options.repeats, options.rounds))
+    return Status.FINE
+
+
+def _measure(site: Site, repeats: int, rounds: int) -> dict[str, Any]:
+    scenario = site.scenario
+    first = next(iter(scenario.agents))
+    problem = pose_round(site, 1, seed=0)
+    mission = Mission(site, 0, rounds, time_limit_s(scenario, rounds, None))
+    left = simulate(mission)
+    sim_s = seconds(left.sim_ns)
+    simulate_s = _median_s(lambda: simulate(mission), repeats)
+    return {
+        "scenario": scenario.name,
+        "agents": len(scenario.agents),
+        "locations": len(site.grid),
+        "plan_s": _median_s(lambda: _plan(first, site), repeats),
+        "solve_s": _median_s(lambda: solve(problem), repeats),
+        "own_solve_s": statistics.median(own.solve_wall_s for own in left.records.timings),
+        "simulate_s": simulate_s,
+        "sim_s": sim_s,
+        "realtime_factor": sim_s / simulate_s,
+    }
+
+
+def _plan(name: str, site: Site) -> None:
+    local_plan(name, site, TravelTimes(site.grid, site.motion_of(name)))
+
+
+def _median_s(work: Callable[[], object], repeats: int) -> float:
+    times_s = []
+    for _ in range(repeats):
+        begun_s = time.perf_counter()
+        work()
+        times_s.append(time.perf_counter() - begun_s)
+    return statistics.median(times_s)
+
+
+def _format_measured(measured: Sequence[Mapping[str, Any]], repeats: int, rounds: int) -> str:
+    rows = [
+        (
+            own["scenario"],
+            str(own["agents"]),
+            str(own["locations"]),
+            format_number(1e3 * own["plan_s"]),
+            format_number(1e3 * own["solve_s"]),
+            format_number(1e3 * own["own_solve_s"]),
+            format_number(own["simulate_s"], 2),
+            format_number(own["realtime_factor"], 0),
+        )
+        for own in measured
+    ]
+    header = (
+        "scenario",
+        "agents",
+        "places",
+        "plan/ms",
+        "solve/ms",
+        "own/ms",
+        f"{rounds} rounds/s",
+        "× real time",
+    )
+    return (
+        f"medians of {repeats}\n\n{format_table(header, rows)}\n\n"
+        "  plan    one agent's local plan, travel times included\n"
+        "  solve   round 1 by Algorithm 1 in one place, candidates given\n"
+        "  own     an agent's own computing per round, in the simulation\n"
+        "  rounds  the whole simulation in one process"
+    )

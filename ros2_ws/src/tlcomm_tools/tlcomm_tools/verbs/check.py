@@ -1,0 +1,89 @@
+"""Audit a run from its bag alone: windows from the poses, tasks from the events, agreement."""
+
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+from typing import Final
+
+from tlcomm_core.errors import InputError
+from tlcomm_core.scenario.loader import load_scenario, loads
+from tlcomm_core.scenario.model import Scenario
+from tlcomm_tools.audit.findings import Audit, audit_run
+from tlcomm_tools.bag.reader import RecordedRun, find_files, read_run
+from tlcomm_tools.status import Status
+from tlcomm_tools.table import format_number, format_table
+from tlcomm_tools.verbs.options import print_json
+
+__all__ = ["EXAMPLE", "add_arguments", "run"]
+
+EXAMPLE: Final = "tlcomm check runs/plant-team-20260101-120000"
+
+_SHOWN_VIOLATIONS: Final = 30
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    parser.add_argument(
+        "run", type=Path, metavar="RUN_OR_BAG", help="a run's folder, a bag's folder or MCAP file"
+    )
+    parser.add_argument(
+        "--scenario",
+        type=Path,
+        metavar="FILE",
+        help="the scenario (default: as the bag says, else scenario.yaml beside the bag)",
+    )
+
+
+def run(options: Namespace) -> Status:
+    """Audit the run and show what was found."""
+    recorded = read_run(options.run)
+    audit = audit_run(_find_scenario(options, recorded), recorded)
+    if options.json:
+        print_json(audit.document())
+    else:
+        print(_format_audit(audit))
+    return Status.PROPERTY_FAILED if audit.violations else Status.FINE
+
+
+def _find_scenario(options: Namespace, recorded: RecordedRun) -> Scenario:
+    if options.scenario is not None:
+        return load_scenario(options.scenario)
+    if "scenario" in recorded.notes:
+        return loads(recorded.notes["scenario"], "the bag's scenario")
+    folder = find_files(options.run)[0].parent
+    for path in (folder / "scenario.yaml", folder.parent / "scenario.yaml"):
+        if path.is_file():
+            return load_scenario(path)
+    raise InputError(
+        f"{str(options.run)!r} says nothing of its scenario: give it with --scenario FILE"
+    )
+
+
+def _format_audit(audit: Audit) -> str:
+    kept = sum(own.satisfied for own in audit.windows)
+    shortest_s = min((own.longest_s for own in audit.windows), default=None)
+    rows = [
+        (
+            own.agent,
+            format_number(own.satisfied, 0),
+            str(own.claimed),
+            format_number(own.longest_gap_s),
+        )
+        for own in audit.tasks
+    ]
+    parts = [
+        f"{audit.scenario}: audit of {audit.sim_s:.1f} s",
+        f"  windows kept       {kept} of {len(audit.windows)}, by the poses",
+        f"  shortest meeting   {format_number(shortest_s, 3, 's')}",
+        f"  strategies agreed  {audit.strategies.equal} of {audit.strategies.rounds} rounds",
+        "",
+        format_table(("agent", "satisfied", "claimed", "longest gap/s"), rows),
+        "",
+    ]
+    if audit.note:
+        parts.append(f"note: the bag was read only in part: {audit.note}")
+    if not audit.violations:
+        return "\n".join([*parts, "verdict: ok"])
+    shown = [f"  - {line}" for line in audit.violations[:_SHOWN_VIOLATIONS]]
+    if len(audit.violations) > _SHOWN_VIOLATIONS:
+        shown.append(f"  … and {len(audit.violations) - _SHOWN_VIOLATIONS} more")
+    return "\n".join([*parts, "verdict: FAILED", *shown])

@@ -1,0 +1,158 @@
+"""Options that several verbs share, and the types of their values.
+
+``add_mission_arguments``  what is run, how long, and where to
+``add_pace_argument``      how simulated time goes on
+``positive_int``, ``not_negative_int``, ``positive_float``, ``pace``, ``method``   types
+``mission_end``            how long to run
+``print_json``             one document on standard output
+"""
+
+import argparse
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final
+
+from tlcomm_core.errors import InputError
+from tlcomm_core.pace import Pace, parse_pace
+
+__all__ = [
+    "LOCKSTEP",
+    "METHODS",
+    "SOLVERS",
+    "add_mission_arguments",
+    "add_pace_argument",
+    "method",
+    "mission_end",
+    "not_negative_int",
+    "pace",
+    "positive_float",
+    "positive_int",
+    "print_json",
+]
+
+LOCKSTEP: Final = "lockstep"
+METHODS: Final = ("team",)
+SOLVERS: Final = ("best-response",)
+_LATER_METHODS: Final = ("static", "pairwise", "all-time")
+_DEFAULT_ROUNDS: Final = 5
+
+
+def positive_int(text: str) -> int:
+    """Read a whole number from 1 on."""
+    value = _whole(text)
+    if value is None or value < 1:
+        raise argparse.ArgumentTypeError(f"expected a whole number from 1 on, not {text!r}")
+    return value
+
+
+def not_negative_int(text: str) -> int:
+    """Read a whole number from 0 on."""
+    value = _whole(text)
+    if value is None or value < 0:
+        raise argparse.ArgumentTypeError(f"expected a whole number from 0 on, not {text!r}")
+    return value
+
+
+def positive_float(text: str) -> float:
+    """Read a finite number greater than 0."""
+    value = _number(text)
+    if value is None:
+        raise argparse.ArgumentTypeError(f"expected a number greater than 0, not {text!r}")
+    return value
+
+
+def pace(text: str) -> Pace:
+    """Read a pace: ``lockstep``, or the factor to run at."""
+    try:
+        return parse_pace(text)
+    except InputError:
+        raise argparse.ArgumentTypeError(
+            f"expected {LOCKSTEP!r} or a factor greater than 0 (1.0 is real time), not {text!r}"
+        ) from None
+
+
+def method(text: str) -> str:
+    """Read a method of coordination."""
+    if text in _LATER_METHODS:
+        available = ", ".join(map(repr, METHODS))
+        raise argparse.ArgumentTypeError(
+            f"method {text!r} is not available yet (available: {available})"
+        )
+    if text not in METHODS:
+        choices = ", ".join(map(repr, METHODS))
+        raise argparse.ArgumentTypeError(f"invalid choice: {text!r} (choose from {choices})")
+    return text
+
+
+def _whole(text: str) -> int | None:
+    try:
+        return int(text)
+    except ValueError:
+        return None
+
+
+def _number(text: str) -> float | None:
+    """Return a positive finite number, or ``None``."""
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if math.isfinite(value) and value > 0.0 else None
+
+
+def add_mission_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add how long to run, how, and where to write."""
+    end = parser.add_mutually_exclusive_group()
+    end.add_argument(
+        "--rounds",
+        type=positive_int,
+        metavar="N",
+        help=f"run until D_c after the meeting of round N (default {_DEFAULT_ROUNDS})",
+    )
+    end.add_argument(
+        "--until", type=positive_float, metavar="S", help="run until this simulated time (s)"
+    )
+    parser.add_argument(
+        "--method", type=method, default=METHODS[0], metavar="NAME", help="team (the default)"
+    )
+    parser.add_argument(
+        "--solver",
+        choices=SOLVERS,
+        default=SOLVERS[0],
+        metavar="NAME",
+        help=f"of the rounds: {', '.join(SOLVERS)}",
+    )
+    parser.add_argument(
+        "--seed", type=not_negative_int, default=0, metavar="N", help="of all noise (default 0)"
+    )
+    parser.add_argument(
+        "--out",
+        type=Path,
+        metavar="DIR",
+        help="write here (default runs/NAME-METHOD-TIME)",
+    )
+
+
+def add_pace_argument(parser: argparse.ArgumentParser) -> None:
+    """Add how simulated time goes on."""
+    parser.add_argument(
+        "--pace",
+        type=pace,
+        default=Pace(None),
+        metavar="lockstep|FACTOR",
+        help="in lock step (the default), or at a factor of real time",
+    )
+
+
+def mission_end(options: argparse.Namespace) -> tuple[int | None, float | None]:
+    """Return the rounds and the time to run to; one of them is ``None``."""
+    if options.until is not None:
+        return None, options.until
+    return options.rounds or _DEFAULT_ROUNDS, None
+
+
+def print_json(document: Mapping[str, Any]) -> None:
+    """Print one JSON document on standard output."""
+    print(json.dumps(document, indent=2, ensure_ascii=False))

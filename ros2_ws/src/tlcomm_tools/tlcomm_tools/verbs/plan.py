@@ -1,0 +1,92 @@
+"""Show each agent's local plan: prefix, suffix, and what they take."""
+
+import time
+from argparse import ArgumentParser, Namespace
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final
+
+from tlcomm_core.agent.member import local_plan
+from tlcomm_core.errors import InputError
+from tlcomm_core.planning.plan import PlanStep
+from tlcomm_core.scenario.loader import load_scenario
+from tlcomm_core.scenario.site import Site
+from tlcomm_core.workspace.travel import TravelTimes
+from tlcomm_tools.status import Status
+from tlcomm_tools.table import format_table
+from tlcomm_tools.verbs.options import print_json
+
+__all__ = ["EXAMPLE", "add_arguments", "run"]
+
+EXAMPLE: Final = "tlcomm plan scenarios/plant.yaml --agent agent_1"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    parser.add_argument("scenario", type=Path, metavar="SCENARIO", help="a scenario file (YAML)")
+    parser.add_argument("--agent", metavar="NAME", help="only this agent's")
+
+
+def run(options: Namespace) -> Status:
+    """Make the plans and show them."""
+    scenario = load_scenario(options.scenario)
+    site = Site.from_scenario(scenario)
+    names = list(scenario.agents)
+    if options.agent is not None:
+        if options.agent not in names:
+            known = ", ".join(names)
+            raise InputError(f"--agent: no agent {options.agent!r} (the agents are {known})")
+        names = [options.agent]
+    plans = {name: _plan(name, site) for name in names}
+    if options.json:
+        print_json({"format": "tlcomm-plan/1", "scenario": scenario.name, "agents": plans})
+    else:
+        print("\n\n".join(_format_plan(name, plan) for name, plan in plans.items()))
+    return Status.FINE
+
+
+def _plan(name: str, site: Site) -> dict[str, Any]:
+    begun_s = time.perf_counter()
+    plan = local_plan(name, site, TravelTimes(site.grid, site.motion_of(name)))
+    return {
+        "task": site.scenario.agents[name].task,
+        "prefix": [_step(step, site) for step in plan.prefix],
+        "suffix": [_step(step, site) for step in plan.suffix],
+        "prefix_s": plan.prefix_s,
+        "suffix_s": plan.suffix_s,
+        "planning_wall_s": time.perf_counter() - begun_s,
+    }
+
+
+def _step(step: PlanStep, site: Site) -> dict[str, Any]:
+    return {
+        "region": step.region,
+        "action": step.action,
+        "at": site.grid.locations_m[step.location].tolist(),
+        "duration": step.duration_s,
+        "satisfies": step.satisfies,
+    }
+
+
+def _format_plan(name: str, plan: Mapping[str, Any]) -> str:
+    steps = [("prefix", step) for step in plan["prefix"]]
+    steps += [("suffix", step) for step in plan["suffix"]]
+    rows = [
+        (
+            str(index),
+            part,
+            step["region"],
+            step["action"] or "visit",
+            "({:g}, {:g})".format(*step["at"]),
+            f"{step['duration']:g}",
+            "satisfied" if step["satisfies"] else "",
+        )
+        for index, (part, step) in enumerate(steps)
+    ]
+    header = ("step", "part", "region", "action", "at/m", "stays/s", "task")
+    return (
+        f"{name}: {plan['task']}\n"
+        f"  prefix {plan['prefix_s']:.2f} s, suffix {plan['suffix_s']:.2f} s; "
+        f"planned in {1e3 * plan['planning_wall_s']:.0f} ms\n"
+        f"{format_table(header, rows, left=5)}"
+    )

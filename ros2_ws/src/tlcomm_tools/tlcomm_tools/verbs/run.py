@@ -1,0 +1,63 @@
+"""Run a scenario with one ROS 2 process per agent, the sim and the recorder."""
+
+import sys
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+from typing import Final
+
+from tlcomm_core.scenario.loader import load_scenario
+from tlcomm_core.scenario.model import Scenario
+from tlcomm_tools.progress import Progress
+from tlcomm_tools.run import RunOptions, run_mission
+from tlcomm_tools.status import Status
+from tlcomm_tools.summary import format_summary
+from tlcomm_tools.verbs.options import (
+    add_mission_arguments,
+    add_pace_argument,
+    mission_end,
+    print_json,
+)
+
+__all__ = ["EXAMPLE", "add_arguments", "run", "run_scenario"]
+
+EXAMPLE: Final = "tlcomm run scenarios/plant.yaml --rounds 3 --pace 1.0"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    parser.add_argument("scenario", type=Path, metavar="SCENARIO", help="a scenario file (YAML)")
+    add_mission_arguments(parser)
+    add_pace_argument(parser)
+
+
+def run(options: Namespace) -> Status:
+    """Run the scenario and show the results."""
+    return run_scenario(load_scenario(options.scenario), options)
+
+
+def run_scenario(scenario: Scenario, options: Namespace) -> Status:
+    """Run a scenario with the options that ``add_arguments`` describes; show the results."""
+    rounds, until_s = mission_end(options)
+    what = RunOptions(
+        scenario=scenario,
+        method=options.method,
+        solver=options.solver,
+        seed=options.seed,
+        pace=options.pace,
+        rounds=rounds,
+        until_s=until_s,
+        out=options.out,
+    )
+    with Progress(rounds, until_s) as progress:
+        report = run_mission(what, progress.show)
+    if options.json:
+        print_json({**report.result, "folder": str(report.folder.path)})
+    else:
+        print(format_summary(report.result, report.folder, has_bag=True))
+    if report.failure is not None:
+        failure = report.failure
+        tail = "".join(f"\n  {line}" for line in failure.log_tail)
+        print(f"tlcomm: error: {failure.name}: {failure.reason}", file=sys.stderr)
+        if tail:
+            print(f"the end of its log:{tail}", file=sys.stderr)
+    return report.status

@@ -1,0 +1,106 @@
+"""Messages as a bag's decoder returns them, turned into the core's values.
+
+``DecodedMessage``      any object with a message's fields
+``read_odometry``, ``read_connectivity``, ``read_task_event``, ``read_team_strategy``,
+``read_round_timing``   one per recorded type that results are computed from
+
+They need no ROS.
+"""
+
+from typing import Any
+
+from tlcomm_core.agent.actions import TaskEvent, TaskEventKind
+from tlcomm_core.agent.timing import RoundTiming
+from tlcomm_core.game.strategy import Strategy, TeamStrategy
+from tlcomm_core.geometry import Pose, yaw_from_quaternion
+from tlcomm_core.records import StrategyRecord, TaskRecord
+from tlcomm_core.world.observation import Connectivity, Odometry
+
+__all__ = [
+    "DecodedMessage",
+    "read_connectivity",
+    "read_odometry",
+    "read_round_timing",
+    "read_task_event",
+    "read_team_strategy",
+]
+
+# Decoders make the classes as they read a file's definitions.
+DecodedMessage = Any
+
+_NS_PER_S = 1_000_000_000
+
+
+def read_odometry(message: DecodedMessage, agent: str) -> Odometry:
+    """Read a ``nav_msgs/Odometry`` of this agent."""
+    place, turn = message.pose.pose.position, message.pose.pose.orientation
+    twist = message.twist.twist
+    return Odometry(
+        stamp_ns=_stamp_ns(message.header.stamp),
+        agent=agent,
+        pose=Pose(place.x, place.y, yaw_from_quaternion(turn.z, turn.w)),
+        linear_mps=twist.linear.x,
+        angular_radps=twist.angular.z,
+    )
+
+
+def read_connectivity(message: DecodedMessage) -> Connectivity:
+    """Read a ``tlcomm_msgs/Connectivity``."""
+    ends = [int(end) for end in message.edges]
+    return Connectivity(
+        stamp_ns=_stamp_ns(message.header.stamp),
+        edges=tuple(zip(ends[::2], ends[1::2], strict=True)),
+        connected=message.connected,
+    )
+
+
+def read_task_event(message: DecodedMessage) -> TaskRecord:
+    """Read a ``tlcomm_msgs/TaskEvent``."""
+    event = TaskEvent(
+        kind=TaskEventKind(message.kind),
+        region=message.region,
+        action=message.action,
+        round=message.round,
+        plan_index=message.plan_index,
+        detail=message.detail,
+    )
+    return TaskRecord(_stamp_ns(message.header.stamp), message.agent, event)
+
+
+def read_team_strategy(message: DecodedMessage, agent: str) -> StrategyRecord:
+    """Read a ``tlcomm_msgs/TeamStrategy`` that this agent holds."""
+    strategy = TeamStrategy(
+        round=message.round,
+        iteration=message.iteration,
+        strategies=tuple(_read_strategy(own) for own in message.strategies),
+        communication_s=message.communication_time,
+        potential_s=message.potential,
+        initial_potential_s=message.initial_potential,
+    )
+    return StrategyRecord(_stamp_ns(message.header.stamp), agent, strategy)
+
+
+def read_round_timing(message: DecodedMessage) -> RoundTiming:
+    """Read a ``tlcomm_msgs/RoundTiming``."""
+    return RoundTiming(
+        agent=message.agent,
+        round=message.round,
+        solve_wall_s=message.solve_wall,
+        offered_wall_s=_stamp_ns(message.offered_at) / _NS_PER_S,
+        agreed_wall_s=_stamp_ns(message.agreed_at) / _NS_PER_S,
+    )
+
+
+def _read_strategy(message: DecodedMessage) -> Strategy:
+    return Strategy(
+        agent=message.agent,
+        x_m=message.location.x,
+        y_m=message.location.y,
+        task_index=message.task_index,
+        arrival_s=message.arrival_time,
+        extra_travel_s=message.extra_travel,
+    )
+
+
+def _stamp_ns(stamp: DecodedMessage) -> int:
+    return int(stamp.sec) * _NS_PER_S + int(stamp.nanosec)

@@ -1,0 +1,212 @@
+"""The agent's node, with a test in the place of sim and neighbours."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry as OdometryMessage
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from std_msgs.msg import Header
+from tlcomm_agent.node import AgentNode, main
+from tlcomm_core.errors import InputError
+from tlcomm_core.geometry import Pose
+from tlcomm_core.scenario.loader import load_scenario
+from tlcomm_core.world.observation import Connectivity, Odometry
+from tlcomm_msgs import msg
+from tlcomm_sim.outputs import Tick
+from tlcomm_sim.wire import encode_connectivity, encode_odometry, encode_tick
+
+CORRIDOR = Path(__file__).parents[2] / "scenarios" / "corridor.yaml"
+SCENARIO = load_scenario(CORRIDOR)
+NAMES = tuple(SCENARIO.agents)
+OWN, PEER = NAMES[0], NAMES[1]
+
+
+def parameters(**values: object) -> list[Parameter]:
+    """Return parameters of an agent in the corridor, some of them changed."""
+    chosen = {"scenario": str(CORRIDOR), "pace": "lockstep", **values}
+    return [Parameter(name, value=value) for name, value in chosen.items()]
+
+
+class Surroundings:
+    """An agent's node beside one that speaks for everybody else."""
+
+    def __init__(self, context: Context) -> None:
+        """Create both, and wait until they have found each other."""
+        self.agent = AgentNode(namespace=OWN, parameters=parameters(), context=context)
+        self.node = Node("test", context=context, use_global_arguments=False)
+        self.executor = SingleThreadedExecutor(context=context)
+        self.executor.add_node(self.agent)
+        self.executor.add_node(self.node)
+        create, subscribe = self.node.create_publisher, self.node.create_subscription
+        self.tick_pub = create(msg.Tick, f"/{OWN}/tick", 10)
+        self.odometry_pub = create(OdometryMessage, f"/{OWN}/odom", 10)
+        self.connectivity_pub = create(msg.Connectivity, "/connectivity", 10)
+        self.response_pub = create(msg.BestResponse, f"/{PEER}/best_response", 10)
+        self.answers: list[Any] = []
+        self.events: list[Any] = []
+        self.offers: list[Any] = []
+        subscribe(msg.TickReply, "/tick_reply", self.answers.append, 10)
+        subscribe(msg.TaskEvent, f"/{OWN}/task_event", self.events.append, 10)
+        subscribe(msg.PlanOffer, f"/{OWN}/plan_offer", self.offers.append, 10)
+        subscribe(TwistStamped, f"/{OWN}/cmd_vel", lambda _: None, 10)
+        own = (self.tick_pub, self.odometry_pub, self.connectivity_pub, self.response_pub)
+        self.until(lambda: all(publisher.get_subscription_count() for publisher in own))
+        self.until(lambda: bool(self.answers))
+
+    def until(self, done: Callable[[], bool]) -> None:
+        """Spin both nodes until something holds, at most 10 s."""
+        for _ in range(1000):
+            if done():
+                return
+            self.executor.spin_once(timeout_sec=0.01)
+        raise AssertionError("nothing happened")
+
+    def settle(self) -> None:
+        """Spin until everything that has been published so far has been handled."""
+        for _ in range(50):
+            self.executor.spin_once(timeout_sec=0.005)
+
+    def answered(self, sequence: int) -> bool:
+        """Tell whether a tick has been answered."""
+        return any(answer.sequence == sequence for answer in self.answers)
+
+    def tick(self, sequence: int, counts: tuple[int, int, int], *, stop: bool = False) -> None:
+        """Tick the agent at t = 0; counts are of odometry, connectivity and the peer's messages."""
+        odometry, connectivity, team = counts
+        agent_counts = tuple(team if name == PEER else 0 for name in NAMES)
+        tick = Tick(sequence, 0, odometry, connectivity, 0, agent_counts, stop)
+        self.tick_pub.publish(encode_tick(tick))
+
+    def show(self) -> None:
+        """Show the agent where it is and that all are in range."""
+        start = Pose(*SCENARIO.agents[OWN].start).as_transmitted()
+        self.odometry_pub.publish(encode_odometry(Odometry(0, OWN, start, 0.0, 0.0)))
+        edges = ((0, 1), (0, 2), (1, 2))
+        self.connectivity_pub.publish(
+            encode_connectivity(Connectivity(0, edges, connected=True), 1.0, NAMES)
+        )
+
+
+@pytest.fixture
+def surroundings(context: Context) -> Iterator[Surroundings]:
+    """Yield an agent with its surroundings."""
+    own = Surroundings(context)
+    yield own
+    own.executor.shutdown()
+    own.agent.destroy_node()
+    own.node.destroy_node()
+
+
+def test_tick_waits_for_all_that_it_counts(surroundings: Surroundings) -> None:
+    """A tick isn't answered before everything has come that it counts; then at once, and once."""
+    surroundings.tick(1, (1, 1, 1))
+    surroundings.settle()
+    assert not surroundings.answered(1)
+    surroundings.show()
+    surroundings.settle()
+    assert not surroundings.answered(1)
+    surroundings.response_pub.publish(msg.BestResponse(sender=PEER))
+    surroundings.until(lambda: surroundings.answered(1))
+    surroundings.settle()
+    (answer,) = [answer for answer in surroundings.answers if answer.sequence == 1]
+    assert answer.agent == OWN
+    assert answer.has_next_need
+    assert answer.team_messages == len(surroundings.offers) == 1
+    published = answer.team_messages + answer.commands + len(surroundings.events)
+    assert answer.published == published
+
+
+def test_sim_is_told_who_is_missing(surroundings: Surroundings) -> None:
+    """While somebody expected isn't there, the agent says that it isn't ready, and keeps saying."""
+    surroundings.answers.clear()
+    surroundings.until(lambda: len(surroundings.answers) > 1)
+    assert not any(answer.ready for answer in surroundings.answers)
+    assert {answer.sequence for answer in surroundings.answers} == {0}
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        msg.BestResponse(sender=PEER, change=float("nan")),
+        msg.BestResponse(sender=""),
+        msg.BestResponse(sender=NAMES[2], candidate="c"),
+        msg.BestResponse(),
+        b"",
+        b"\0\1\0\0",
+        b"\0\1\0\0" + b"\xff" * 40,
+    ],
+    ids=["nan", "nameless", "in another's name", "empty", "nothing", "truncated", "garbage"],
+)
+def test_malformed_messages_are_counted_and_ignored(
+    surroundings: Surroundings, message: Any
+) -> None:
+    """Whatever a peer's topic carries, it counts as received, is noted, and harms nobody."""
+    surroundings.response_pub.publish(message)
+    surroundings.show()
+    surroundings.tick(1, (1, 1, 1))
+    surroundings.until(lambda: surroundings.answered(1))
+    assert sum(surroundings.agent.ignored.values()) == 1
+    assert all(PEER in reason for reason in surroundings.agent.ignored)
+
+
+def test_malformed_surroundings_are_counted_and_ignored(surroundings: Surroundings) -> None:
+    """An odometry or connectivity that can't be used is noted, and harms nobody."""
+    surroundings.connectivity_pub.publish(msg.Connectivity(header=Header(), agents=["x"]))
+    odometry = OdometryMessage()
+    odometry.pose.pose.position.x = float("inf")
+    surroundings.odometry_pub.publish(odometry)
+    surroundings.tick_pub.publish(msg.Tick(sequence=1))
+    surroundings.until(lambda: sum(surroundings.agent.ignored.values()) == 3)
+    assert {reason.split(":")[0] for reason in surroundings.agent.ignored} == {
+        "odom",
+        "connectivity",
+        "tick",
+    }
+
+
+def test_agent_leaves_after_the_sim(surroundings: Surroundings) -> None:
+    """Told that the run is over, the agent answers, and leaves when the sim has gone."""
+    surroundings.show()
+    surroundings.tick(1, (1, 1, 0))
+    surroundings.until(lambda: surroundings.answered(1))
+    surroundings.tick(2, (1, 1, 0), stop=True)
+    surroundings.until(lambda: surroundings.answered(2))
+    surroundings.settle()
+    assert not surroundings.agent.is_done
+    surroundings.node.destroy_publisher(surroundings.tick_pub)
+    surroundings.until(lambda: surroundings.agent.is_done)
+
+
+@pytest.mark.parametrize(
+    ("namespace", "changed", "reason"),
+    [
+        ("nobody", {}, "'/nobody' is no agent"),
+        (None, {}, "'/' is no agent"),
+        (OWN, {"scenario": ""}, "scenario"),
+        (OWN, {"scenario": 3}, "scenario"),
+        (OWN, {"scenario": "missing.yaml"}, "missing.yaml"),
+        (OWN, {"pace": "fast"}, "pace: 'fast'"),
+        (OWN, {"pace": -1.0}, "pace: '-1.0'"),
+    ],
+)
+def test_bad_parameters(
+    context: Context, namespace: str | None, changed: dict[str, object], reason: str
+) -> None:
+    """What can't be used is an input error of one line that names it."""
+    with pytest.raises(InputError, match=reason) as caught:
+        AgentNode(namespace=namespace, parameters=parameters(**changed), context=context)
+    assert "\n" not in str(caught.value)
+
+
+def test_executable_says_what_is_wrong(domain: int, capsys: pytest.CaptureFixture[str]) -> None:
+    """The executable exits with 2 and one line."""
+    del domain
+    arguments = ["--ros-args", "-r", "__ns:=/nobody", "-p", f"scenario:={CORRIDOR}"]
+    assert main(arguments) == 2
+    assert capsys.readouterr().err.count("\n") == 1

@@ -1,0 +1,190 @@
+"""An agent's messages and the core's values, with the real message classes."""
+
+import math
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from rclpy.serialization import deserialize_message, serialize_message
+from tlcomm_agent import wire
+from tlcomm_core.agent.actions import Drive, TaskEvent, TaskEventKind
+from tlcomm_core.game.offer import MAX_STOPS, MemberOffer, PlannedStop
+from tlcomm_core.game.strategy import Strategy, TeamStrategy
+from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
+from tlcomm_core.records import RoundTiming, StrategyRecord, TaskRecord
+from tlcomm_core.world.observation import Connectivity
+from tlcomm_msgs import msg
+from tlcomm_sim.wire import encode_connectivity
+from tlcomm_tools.wire import read_round_timing, read_task_event, read_team_strategy
+
+FLOATS = st.floats(allow_nan=False, allow_infinity=False)
+NAMES = st.from_regex(r"[a-z][a-z0-9_]{0,20}", fullmatch=True)
+UINT32 = st.integers(0, 2**32 - 1)
+STAMPS_NS = st.integers(0, 2**31 * 10**9 - 1)
+STRATEGIES = st.builds(Strategy, NAMES, FLOATS, FLOATS, UINT32, FLOATS, FLOATS)
+STOPS = st.builds(PlannedStop, UINT32, FLOATS, FLOATS, FLOATS, FLOATS)
+OFFERS = st.builds(
+    MemberOffer,
+    NAMES,
+    FLOATS,
+    FLOATS,
+    FLOATS,
+    FLOATS,
+    FLOATS,
+    FLOATS,
+    st.lists(STOPS, max_size=4).map(tuple),
+)
+NAME_TUPLES = st.lists(NAMES, max_size=4).map(tuple)
+MESSAGES = st.one_of(
+    st.builds(PlanOffer, NAMES, UINT32, NAME_TUPLES, st.lists(OFFERS, max_size=3).map(tuple)),
+    st.builds(
+        BestResponse, NAMES, UINT32, UINT32, st.integers(0, 2**16 - 1), NAMES, FLOATS, STRATEGIES
+    ),
+    st.builds(Confirmation, NAMES, UINT32, UINT32, st.integers(0, 2**64 - 1), NAME_TUPLES),
+)
+# Times of today's wall clock.
+WALL_S = st.floats(1.0e9, 2.0**31 - 1.0)
+
+
+def over_the_wire(message: Any) -> Any:
+    """Return a message after it has been bytes."""
+    return deserialize_message(serialize_message(message), type(message))
+
+
+@given(MESSAGES, STAMPS_NS)
+def test_what_agents_say_survives(message: Message, stamp_ns: int) -> None:
+    """Messages come back equal, to the last bit and nanosecond, on the topic of their type."""
+    encoded = wire.encode_message(message, stamp_ns)
+    assert isinstance(encoded, wire.TEAM_TYPES[wire.team_topic(message)])
+    assert wire.decode_message(over_the_wire(encoded)) == (message, stamp_ns)
+
+
+@given(
+    st.builds(TaskEvent, st.sampled_from(TaskEventKind), NAMES, NAMES, UINT32, UINT32, st.text()),
+    NAMES,
+    STAMPS_NS,
+)
+def test_task_events_survive(event: TaskEvent, agent: str, stamp_ns: int) -> None:
+    """A task event reads from a bag as it was."""
+    event = TaskEvent(
+        event.kind,
+        event.region,
+        event.action,
+        event.round,
+        event.plan_index,
+        # Neither NUL nor lone surrogates are text that ROS carries.
+        "".join(c for c in event.detail if c != "\0" and not 0xD800 <= ord(c) <= 0xDFFF),
+    )
+    encoded = wire.encode_task_event(event, agent, stamp_ns)
+    assert read_task_event(over_the_wire(encoded)) == TaskRecord(stamp_ns, agent, event)
+
+
+@given(
+    st.builds(
+        TeamStrategy,
+        UINT32,
+        UINT32,
+        st.lists(STRATEGIES, max_size=4).map(tuple),
+        FLOATS,
+        FLOATS,
+        FLOATS,
+    ),
+    STAMPS_NS,
+)
+def test_team_strategies_survive(strategy: TeamStrategy, stamp_ns: int) -> None:
+    """A team strategy reads from a bag as it was."""
+    encoded = over_the_wire(wire.encode_team_strategy(strategy, stamp_ns))
+    assert read_team_strategy(encoded, "a") == StrategyRecord(stamp_ns, "a", strategy)
+
+
+@given(st.builds(RoundTiming, NAMES, UINT32, FLOATS, WALL_S, WALL_S), STAMPS_NS)
+def test_timings_survive(timing: RoundTiming, stamp_ns: int) -> None:
+    """Wall times of the present come back as the same floats."""
+    assert read_round_timing(over_the_wire(wire.encode_round_timing(timing, stamp_ns))) == timing
+
+
+def test_drive() -> None:
+    """A command has its stamp, linear.x and angular.z, and nothing else."""
+    message = wire.encode_drive(Drive(0.5, -1.5), 1_500_000_000)
+    assert (message.header.stamp.sec, message.header.stamp.nanosec) == (1, 500_000_000)
+    assert (message.twist.linear.x, message.twist.angular.z) == (0.5, -1.5)
+    assert (message.twist.linear.y, message.twist.angular.x) == (0.0, 0.0)
+
+
+@given(st.sets(st.sampled_from([(i, j) for i in range(4) for j in range(i + 1, 4)])))
+def test_neighbours(edges: set[tuple[int, int]]) -> None:
+    """Of a connectivity an agent learns who is on the other end of its own edges."""
+    names = ("a", "b", "c", "d")
+    message = encode_connectivity(Connectivity(7, tuple(sorted(edges)), False), 1.0, names)
+    for own, name in enumerate(names):
+        near = {names[i + j - own] for i, j in edges if own in (i, j)}
+        assert wire.decode_neighbours(over_the_wire(message), name) == (near, 7)
+
+
+def offer_message() -> Any:
+    """Return a well-formed plan offer with one stop."""
+    stop = PlannedStop(1, 2.0, 3.0, 0.5, 4.0)
+    offer = MemberOffer("b", 1.0, 2.0, 3.0, 0.0, 1.0, 1.5, (stop,))
+    return wire.encode_message(PlanOffer("b", 1, ("b",), (offer,)), 0)
+
+
+def response_message() -> Any:
+    """Return a well-formed best response."""
+    strategy = Strategy("b", 1.0, 2.0, 3, 4.0, 5.0)
+    return wire.encode_message(BestResponse("b", 1, 2, 0, "b", -1.0, strategy), 0)
+
+
+def assign(message: Any, path: str, value: object) -> Any:
+    """Return the message with a field, given by its path, changed."""
+    *parents, field = path.split(".")
+    target = message
+    for parent in parents:
+        target = target[int(parent)] if parent.isdecimal() else getattr(target, parent)
+    setattr(target, field, value)
+    return message
+
+
+@pytest.mark.parametrize(
+    ("message", "path", "value"),
+    [
+        (offer_message(), "sender", ""),
+        (offer_message(), "sender", "x" * 256),
+        (offer_message(), "header.stamp.nanosec", 10**9),
+        (offer_message(), "header.stamp.sec", -1),
+        (offer_message(), "known", ["a", ""]),
+        (offer_message(), "known", ["a"] * 1001),
+        (offer_message(), "offers", [msg.MemberOffer(agent="a")] * 1001),
+        (offer_message(), "offers.0.agent", ""),
+        (offer_message(), "offers.0.heading", math.nan),
+        (offer_message(), "offers.0.linear_speed", math.inf),
+        (offer_message(), "offers.0.stop_x", [math.nan]),
+        (offer_message(), "offers.0.finish_offset", [-math.inf]),
+        (offer_message(), "offers.0.stop_y", [1.0, 2.0]),
+        (offer_message(), "offers.0.task_index", list(range(MAX_STOPS + 1))),
+        (response_message(), "candidate", ""),
+        (response_message(), "change", math.nan),
+        (response_message(), "strategy.location.x", math.inf),
+        (response_message(), "strategy.arrival_time", math.nan),
+        (msg.Confirmation(sender="b"), "confirmed", ["a"] * 1001),
+    ],
+)
+def test_malformed_messages_are_refused(message: Any, path: str, value: object) -> None:
+    """Names, sizes, stamps and numbers out of their range are refused by name."""
+    with pytest.raises(wire.WireError):
+        wire.decode_message(assign(message, path, value))
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        msg.Connectivity(agents=["b"]),
+        msg.Connectivity(agents=["a", "b"], edges=[0]),
+        msg.Connectivity(agents=["a", "b"], edges=[0, 2]),
+        msg.Connectivity(agents=["a", ""], edges=[0, 1]),
+    ],
+)
+def test_malformed_connectivity_is_refused(message: Any) -> None:
+    """A connectivity without the agent, or with edges that lead nowhere, is refused."""
+    with pytest.raises(wire.WireError):
+        wire.decode_neighbours(message, "a")

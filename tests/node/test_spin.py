@@ -1,0 +1,135 @@
+"""Spinning a node, by executor and by wait set."""
+
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from std_msgs.msg import UInt64
+from tlcomm_tools.runtime import spin as module
+from tlcomm_tools.runtime.spin import Spin, spin, spin_executor, spin_fast
+
+SPINS = [spin, spin_fast, spin_executor]
+STEADY = Clock(clock_type=ClockType.STEADY_TIME)
+
+
+def node_of(context: Context, name: str = "node") -> Node:
+    """Return a node without services."""
+    return Node(
+        name,
+        context=context,
+        use_global_arguments=False,
+        enable_rosout=False,
+        start_parameter_services=False,
+        parameter_overrides=[Parameter("start_type_description_service", value=False)],
+    )
+
+
+@pytest.mark.parametrize("way", SPINS)
+def test_messages_and_timers(context: Context, way: Spin) -> None:
+    """Every message arrives, in order; timers run, and entities made while spinning too."""
+    node = node_of(context)
+    publisher = node.create_publisher(UInt64, "number", 1000)
+    heard: list[int] = []
+    late: list[int] = []
+
+    def begin() -> None:
+        if not publisher.get_subscription_count():
+            return
+        timer.cancel()
+        node.create_timer(0.001, lambda: late.append(1), clock=STEADY)
+        for number in range(500):
+            publisher.publish(UInt64(data=number))
+
+    node.create_subscription(UInt64, "number", lambda message: heard.append(message.data), 1000)
+    timer = node.create_timer(0.01, begin, clock=STEADY)
+    way(node, lambda: len(heard) == 500 and len(late) > 2)
+    assert heard == list(range(500))
+
+
+@pytest.mark.parametrize("way", SPINS)
+def test_raw_messages(context: Context, way: Spin) -> None:
+    """A raw subscription gets bytes."""
+    node = node_of(context)
+    publisher = node.create_publisher(UInt64, "number", 10)
+    heard: list[bytes] = []
+    node.create_subscription(UInt64, "number", heard.append, 10, raw=True)
+    node.create_timer(0.01, lambda: publisher.publish(UInt64(data=7)), clock=STEADY)
+    way(node, lambda: bool(heard))
+    assert heard[0].endswith((7).to_bytes(8, "little"))
+
+
+@pytest.mark.parametrize("way", SPINS)
+def test_errors_of_callbacks_come_through(context: Context, way: Spin) -> None:
+    """What a callback raises ends the spin."""
+    node = node_of(context)
+
+    def fail() -> None:
+        raise ZeroDivisionError
+
+    node.create_timer(0.01, fail, clock=STEADY)
+    with pytest.raises(ZeroDivisionError):
+        way(node, lambda: False)
+
+
+@pytest.mark.parametrize("way", SPINS)
+def test_shutdown_ends_it(context: Context, way: Spin) -> None:
+    """A context that is shut down ends the spin with the same exception."""
+    node = node_of(context)
+    node.create_timer(0.01, context.try_shutdown, clock=STEADY)
+    with pytest.raises(ExternalShutdownException):
+        way(node, lambda: False)
+
+
+def test_way_is_chosen(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The wait set serves nodes without services, as long as rclpy has one."""
+    assert module._can_spin_fast(node_of(context))
+    assert not module._can_spin_fast(Node("full", context=context, use_global_arguments=False))
+    monkeypatch.delattr(module.rclpy_implementation, "WaitSet")
+    assert not module._can_spin_fast(node_of(context, "other"))
+
+
+PROGRAM = """
+import sys
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from tlcomm_tools.runtime import spin
+rclpy.init(args=[])
+node = Node("node", start_parameter_services=False,
+            parameter_overrides=[Parameter("start_type_description_service", value=False)])
+try:
+    timer = node.create_timer(0.01, lambda: (timer.cancel(), print("ready", flush=True)))
+    getattr(spin, sys.argv[1])(node, lambda: False)
+except (KeyboardInterrupt, ExternalShutdownException):
+    rclpy.try_shutdown()
+    sys.exit(42)
+"""
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("way", ["spin_fast", "spin_executor"])
+def test_signals_end_it(domain: int, way: str, number: signal.Signals) -> None:
+    """A signal ends a process that spins in good order, though nothing else happens in it."""
+    environment = {**os.environ, "ROS_DOMAIN_ID": str(domain)}
+    environment["PYTHONPATH"] = os.pathsep.join(path for path in sys.path if path)
+    with subprocess.Popen(
+        [sys.executable, "-c", PROGRAM, way],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        env=environment,
+        text=True,
+    ) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "ready\n"
+        process.send_signal(number)
+        _, errors = process.communicate(timeout=20.0)
+    assert (process.returncode, errors) == (42, "")

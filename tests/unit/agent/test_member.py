@@ -1,0 +1,146 @@
+"""One agent as a shell holds it."""
+
+import math
+
+import pytest
+
+from support.hall import STARTS, hall, make_member
+from tlcomm_core.agent.actions import CountIgnored, Drive, SendMessage
+from tlcomm_core.agent.controller import Pacing
+from tlcomm_core.agent.member import Member, create
+from tlcomm_core.errors import UnreachableTaskError
+from tlcomm_core.geometry import Pose
+from tlcomm_core.protocol.messages import Message
+from tlcomm_core.scenario.loader import dumps, loads
+from tlcomm_core.scenario.site import Site
+from tlcomm_core.units import nanoseconds
+from tlcomm_core.workspace.atlas import Atlas
+
+LATENCY_NS = 5_000_000
+
+
+def placed(name: str, count: int, pacing: Pacing = Pacing.EVENT) -> Member:
+    """Return a member that has seen its start and everybody in range."""
+    member = make_member(name, count, pacing)
+    member.see_odometry(0, Pose(*STARTS[name]), 0.0, 0.0)
+    member.see_neighbours(0, frozenset(STARTS) - {name})
+    return member
+
+
+def said(member: Member, now_ns: int) -> list[Message]:
+    """Return what a member says in a step."""
+    return [action.message for action in member.step(now_ns) if isinstance(action, SendMessage)]
+
+
+def test_a_step_after_nothing_needs_nothing() -> None:
+    """Before its first odometry, time alone means nothing to it."""
+    member = make_member("one", 1)
+    assert member.step(0) == ()
+    assert member.next_need_ns is None
+
+
+@pytest.mark.parametrize("pacing", Pacing)
+def test_the_next_need_is_always_ahead(pacing: Pacing) -> None:
+    """Rounding never asks for the instant that just was, nor for one long after the need."""
+    member = placed("one", 1, pacing)
+    now_ns, drives = 0, 0
+    pose, drive = Pose(*STARTS["one"]), Drive(0.0, 0.0)
+    for _ in range(2000):
+        member.see_odometry(now_ns, pose, drive.linear_mps, drive.angular_radps)
+        for action in member.step(now_ns):
+            if isinstance(action, Drive):
+                drive, drives = action, drives + 1
+        need_ns = member.next_need_ns
+        assert need_ns is not None
+        assert need_ns > now_ns
+        need_s = member._brain.next_need_s
+        assert need_ns == max(nanoseconds(need_s), now_ns + 1)
+        now_ns = need_ns
+    assert drives > 0
+
+
+def test_a_step_handles_everything_seen_once() -> None:
+    """A second step at the same time has nothing to add."""
+    member = placed("one", 1)
+    assert member.step(0) != ()
+    assert member.step(0) == ()
+
+
+def test_a_message_is_heard_a_latency_after_it_was_sent() -> None:
+    """In lock step; so what happens at one instant can't depend on who acts first."""
+    one, two = placed("one", 2), placed("two", 2)
+    for message in said(two, 0):
+        one.receive(message, 0)
+    first = said(one, 0)
+    assert all(not message.offers or message.known == ("one",) for message in first)  # type: ignore[union-attr]
+    assert said(one, LATENCY_NS - 1) == []
+    assert said(one, LATENCY_NS) != []
+
+
+def test_free_running_a_message_is_heard_when_it_comes() -> None:
+    """The network's own latency is enough."""
+    one, two = placed("one", 2, Pacing.PERIODIC), placed("two", 2, Pacing.PERIODIC)
+    for message in said(two, 0):
+        one.receive(message, 0)
+    (offer, *_) = said(one, 0)
+    assert offer.known == ("one", "two")  # type: ignore[union-attr]
+
+
+def test_who_is_out_of_range_is_not_heard() -> None:
+    """Nothing that it says has any effect, not even a note."""
+    one, two, alone = placed("one", 2), placed("two", 2), placed("one", 2)
+    one.see_neighbours(1, frozenset())
+    for message in said(two, 0):
+        one.receive(message, 0)
+    for now_ns in (0, LATENCY_NS, 10 * LATENCY_NS):
+        assert one.step(now_ns) == alone.step(now_ns)
+        assert one.next_need_ns == alone.next_need_ns
+    assert (one.out_of_range, alone.out_of_range) == (1, 0)
+
+
+def test_it_counts_what_is_said_to_it_on_the_way() -> None:
+    """Away from a meeting, the radio lets a neighbour through, and the brain ignores it."""
+    one, two = placed("one", 1), placed("two", 2)
+    one.step(0)
+    one.step(3_000_000_000)
+    assert one.meetings_ended == 1
+    for message in said(two, 0):
+        one.receive(message, 3_000_000_000)
+    assert CountIgnored("not meeting") in one.step(3_000_000_000 + LATENCY_NS)
+
+
+def test_planned_round_and_meetings_ended_go_on_together() -> None:
+    """A team of one agrees at once and leaves after D_c."""
+    member = placed("one", 1)
+    assert (member.meetings_ended, member.planned_round) == (0, 1)
+    member.step(0)
+    assert (member.meetings_ended, member.planned_round) == (0, None)
+    member.step(3_000_000_000)
+    assert (member.meetings_ended, member.planned_round) == (1, None)
+
+
+def test_periodic_control_is_allowed_for_in_predictions() -> None:
+    """Free running, legs are reckoned longer than in lock step."""
+    event, periodic = (make_member("one", 1, pacing)._brain._settings for pacing in Pacing)
+    pose = Pose(*STARTS["one"])
+    target = event.plan.step(0).location
+    exact_s = event.travel.leg_to(pose, target).duration_s
+    assert exact_s < periodic.travel.leg_to(pose, target).duration_s < exact_s + 1.0
+
+
+def test_an_impossible_task_is_refused() -> None:
+    """A member without a plan isn't made."""
+    text = dumps(hall(1).scenario)
+    walled = text.replace("obstacles_m: []", "obstacles_m: [[4.0, 0.0, 4.5, 2.0]]")
+    assert walled != text
+    site = Site.from_scenario(loads(walled))
+    with pytest.raises(UnreachableTaskError, match="b"):
+        create("one", site, Pacing.EVENT, Atlas(site.grid))
+
+
+def test_a_lone_member_meets_forever() -> None:
+    """Its needs alone carry it through many windows; needs stay finite."""
+    member = placed("one", 1)
+    member.step(0)
+    assert member.next_need_ns == 3_000_000_000
+    assert member.next_need_ns < math.inf
