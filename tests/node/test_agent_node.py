@@ -12,6 +12,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_msgs.msg import Header
+
 from tlcomm_agent.node import AgentNode, main
 from tlcomm_core.errors import InputError
 from tlcomm_core.geometry import Pose
@@ -77,10 +78,10 @@ class Surroundings:
         return any(answer.sequence == sequence for answer in self.answers)
 
     def tick(self, sequence: int, counts: tuple[int, int, int], *, stop: bool = False) -> None:
-        """Tick the agent at t = 0; counts are of odometry, connectivity and the peer's messages."""
+        """Tick the agent after a hop; counts: odometry, connectivity, the peer's messages."""
         odometry, connectivity, team = counts
         agent_counts = tuple(team if name == PEER else 0 for name in NAMES)
-        tick = Tick(sequence, 0, odometry, connectivity, 0, agent_counts, stop)
+        tick = Tick(sequence, 10_000_000, odometry, connectivity, 0, agent_counts, stop)
         self.tick_pub.publish(encode_tick(tick))
 
     def show(self) -> None:
@@ -144,7 +145,7 @@ def test_sim_is_told_who_is_missing(surroundings: Surroundings) -> None:
     ids=["nan", "nameless", "in another's name", "empty", "nothing", "truncated", "garbage"],
 )
 def test_malformed_messages_are_counted_and_ignored(
-    surroundings: Surroundings, message: Any
+    surroundings: Surroundings, message: object
 ) -> None:
     """Whatever a peer's topic carries, it counts as received, is noted, and harms nobody."""
     surroundings.response_pub.publish(message)
@@ -204,9 +205,11 @@ def test_bad_parameters(
     assert "\n" not in str(caught.value)
 
 
-def test_executable_says_what_is_wrong(domain: int, capsys: pytest.CaptureFixture[str]) -> None:
+def test_executable_says_what_is_wrong(
+    domain: int, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The executable exits with 2 and one line."""
-    del domain
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
     arguments = ["--ros-args", "-r", "__ns:=/nobody", "-p", f"scenario:={CORRIDOR}"]
     assert main(arguments) == 2
     assert capsys.readouterr().err.count("\n") == 1

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
+
 from tlcomm_agent import wire
 from tlcomm_core.agent.actions import Drive, TaskEvent, TaskEventKind
 from tlcomm_core.game.offer import MAX_STOPS, MemberOffer, PlannedStop
@@ -17,6 +18,9 @@ from tlcomm_core.world.observation import Connectivity
 from tlcomm_msgs import msg
 from tlcomm_sim.wire import encode_connectivity
 from tlcomm_tools.wire import read_round_timing, read_task_event, read_team_strategy
+
+# Generated messages are opaque.
+RosMessage = Any
 
 FLOATS = st.floats(allow_nan=False, allow_infinity=False)
 NAMES = st.from_regex(r"[a-z][a-z0-9_]{0,20}", fullmatch=True)
@@ -47,7 +51,7 @@ MESSAGES = st.one_of(
 WALL_S = st.floats(1.0e9, 2.0**31 - 1.0)
 
 
-def over_the_wire(message: Any) -> Any:
+def over_the_wire(message: RosMessage) -> RosMessage:
     """Return a message after it has been bytes."""
     return deserialize_message(serialize_message(message), type(message))
 
@@ -122,20 +126,20 @@ def test_neighbours(edges: set[tuple[int, int]]) -> None:
         assert wire.decode_neighbours(over_the_wire(message), name) == (near, 7)
 
 
-def offer_message() -> Any:
+def offer_message() -> RosMessage:
     """Return a well-formed plan offer with one stop."""
     stop = PlannedStop(1, 2.0, 3.0, 0.5, 4.0)
     offer = MemberOffer("b", 1.0, 2.0, 3.0, 0.0, 1.0, 1.5, (stop,))
     return wire.encode_message(PlanOffer("b", 1, ("b",), (offer,)), 0)
 
 
-def response_message() -> Any:
+def response_message() -> RosMessage:
     """Return a well-formed best response."""
     strategy = Strategy("b", 1.0, 2.0, 3, 4.0, 5.0)
     return wire.encode_message(BestResponse("b", 1, 2, 0, "b", -1.0, strategy), 0)
 
 
-def assign(message: Any, path: str, value: object) -> Any:
+def assign(message: RosMessage, path: str, value: object) -> RosMessage:
     """Return the message with a field, given by its path, changed."""
     *parents, field = path.split(".")
     target = message
@@ -169,7 +173,7 @@ def assign(message: Any, path: str, value: object) -> Any:
         (msg.Confirmation(sender="b"), "confirmed", ["a"] * 1001),
     ],
 )
-def test_malformed_messages_are_refused(message: Any, path: str, value: object) -> None:
+def test_malformed_messages_are_refused(message: RosMessage, path: str, value: object) -> None:
     """Names, sizes, stamps and numbers out of their range are refused by name."""
     with pytest.raises(wire.WireError):
         wire.decode_message(assign(message, path, value))
@@ -184,7 +188,7 @@ def test_malformed_messages_are_refused(message: Any, path: str, value: object) 
         msg.Connectivity(agents=["a", ""], edges=[0, 1]),
     ],
 )
-def test_malformed_connectivity_is_refused(message: Any) -> None:
+def test_malformed_connectivity_is_refused(message: RosMessage) -> None:
     """A connectivity without the agent, or with edges that lead nowhere, is refused."""
     with pytest.raises(wire.WireError):
         wire.decode_neighbours(message, "a")

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from nav_msgs.msg import Odometry as OdometryMessage
 from rclpy.serialization import deserialize_message, serialize_message
 from rosgraph_msgs.msg import Clock
+
 from tlcomm_agent.wire import decode_odometry, encode_drive
 from tlcomm_core.agent.actions import Drive
 from tlcomm_core.geometry import Pose

@@ -13,6 +13,7 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_msgs.msg import UInt64
+
 from tlcomm_tools.runtime import spin as module
 from tlcomm_tools.runtime.spin import Spin, spin, spin_executor, spin_fast
 
@@ -97,19 +98,21 @@ def test_way_is_chosen(context: Context, monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 PROGRAM = """
+import signal
 import sys
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from tlcomm_tools.runtime import spin
+signal.signal(signal.SIGINT, lambda *_: None)
 rclpy.init(args=[])
 node = Node("node", start_parameter_services=False,
             parameter_overrides=[Parameter("start_type_description_service", value=False)])
 try:
     timer = node.create_timer(0.01, lambda: (timer.cancel(), print("ready", flush=True)))
     getattr(spin, sys.argv[1])(node, lambda: False)
-except (KeyboardInterrupt, ExternalShutdownException):
+except ExternalShutdownException:
     rclpy.try_shutdown()
     sys.exit(42)
 """

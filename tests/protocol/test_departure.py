@@ -8,9 +8,9 @@ pin down how far that goes.
 import math
 
 import pytest
+
 from support.fake_network import FakeNetwork, Faults
 from support.meetings import Meeting, sample_meeting
-
 from tlcomm_core.protocol.messages import Confirmation
 from tlcomm_core.protocol.negotiation import Phase
 

@@ -5,9 +5,9 @@ import math
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from support.protocol_states import States
 from support.snapshots import snapshot
-
 from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.protocol.actions import CountIgnored, HoldStrategy, SendMessage
 from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
@@ -53,7 +53,7 @@ generated = st.one_of(
 heard = st.lists(generated | st.sampled_from(STATES.said), max_size=12)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=200, deadline=None)
 @given(state=st.sampled_from(sorted(STATES.negotiations)), messages=heard)
 def test_no_sequence_of_messages_breaks_the_state_machine(
     state: str, messages: list[Message]

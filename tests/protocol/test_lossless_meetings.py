@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+
 from support.fake_network import FakeNetwork, Faults
 from support.meetings import SHAPES, Meeting, plant_meeting, sample_meeting
-
 from tlcomm_core.game.algorithm import solve
 from tlcomm_core.game.potential import evaluate
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
@@ -70,9 +70,9 @@ def test_all_agree_on_the_reference(shape: str, count: int) -> None:
         assert set(said_by(network, BestResponse).values()) == {exchanges}
         assert set(said_by(network, Confirmation).values()) <= set(range(1, count + 1))
         took_s = max(network.agreed_s.values()) - network.begins_s
-        # A flood of offers, or the last one's question and the answer; the exchanges; a flood of
-        # confirmations; and 1 ns for rounding.
-        assert took_s <= (exchanges + max(2, hops) + hops) * 0.005 + 1e-9
+        # A flood of offers, one hop more as the last one's question is answered; the exchanges; a
+        # flood of confirmations; and 1 ns for rounding.
+        assert took_s <= (hops + 1 + exchanges + hops) * 0.005 + 1e-9
         assert network.next_s == math.inf
 
 

@@ -2,13 +2,13 @@
 
 import copy
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
+
 from support.protocol_states import States
 from support.snapshots import snapshot
-
 from tlcomm_core.protocol.actions import CountIgnored
 from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
 from tlcomm_core.protocol.negotiation import Negotiation, Phase
@@ -61,13 +61,14 @@ def spoilt_confirmation(message: Confirmation) -> Iterator[tuple[str, Message]]:
 
 def variants(message: Message) -> Iterator[tuple[str, Message]]:
     """Yield a message as it is and spoilt, of all rounds and senders."""
-    spoilt: Callable[..., Iterator[tuple[str, Message]]] = {
-        PlanOffer: spoilt_offers,
-        BestResponse: spoilt_response,
-        Confirmation: spoilt_confirmation,
-    }[type(message)]
     yield "sound", message
-    yield from spoilt(message)
+    match message:
+        case PlanOffer():
+            yield from spoilt_offers(message)
+        case BestResponse():
+            yield from spoilt_response(message)
+        case Confirmation():
+            yield from spoilt_confirmation(message)
     for round_ in (-1, message.round - 1, message.round + 1):
         yield f"round {round_}", replace(message, round=round_)
     for sender in (*STATES.beside, STATES.beyond, STATES.own, "stranger", ""):

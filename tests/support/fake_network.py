@@ -14,8 +14,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tlcomm_core.protocol.actions import Action, HoldStrategy, SendMessage
 from tlcomm_core.game.offer import MemberOffer
+from tlcomm_core.protocol.actions import Action, HoldStrategy, SendMessage
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.protocol.negotiation import Negotiation, Rounds
 from tlcomm_core.protocol.team import Team

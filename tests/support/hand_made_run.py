@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from rosbags.typesys.store import Typestore
+
 from tlcomm_core.agent.actions import TaskEvent, TaskEventKind
 from tlcomm_core.agent.timing import RoundTiming
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
@@ -185,7 +186,9 @@ def serialize_run(store: Typestore, records: RunRecords) -> Iterable[tuple[str, 
     """Yield topic, stamp (ns) and bytes of every message, in order of time."""
     make = _Messages(store)
     rows = [(f"/{own.agent}/odom", own.stamp_ns, make.odometry(own)) for own in records.odometry]
-    rows += [("/connectivity", own.stamp_ns, make.connectivity(own)) for own in records.connectivity]
+    rows += [
+        ("/connectivity", own.stamp_ns, make.connectivity(own)) for own in records.connectivity
+    ]
     rows += [(f"/{own.agent}/task_event", own.stamp_ns, make.task(own)) for own in records.tasks]
     rows += [
         (f"/{own.agent}/team_strategy", own.stamp_ns, make.strategy(own))

@@ -20,9 +20,9 @@ import numpy as np
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import InfeasibleRoundError
 from tlcomm_core.game.initial import initial_profile
+from tlcomm_core.game.offer import MemberOffer, PlannedStop
 from tlcomm_core.game.problem import RoundProblem
 from tlcomm_core.game.sample import sample_problem
-from tlcomm_core.game.offer import MemberOffer, PlannedStop
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.grid import Grid
@@ -117,16 +117,21 @@ def _random_places(count: int, rng: np.random.Generator) -> tuple[Place, ...]:
     return tuple(chosen)
 
 
-def make_team(count: int, **changes: float) -> Team:
+def make_team(
+    count: int,
+    range_m: float = _RANGE_M,
+    planned_range_m: float = _PLANNED_M,
+    max_iterations: int = 1000,
+) -> Team:
     """Return a team of ``agent_00``, ``agent_01``, …."""
-    team = Team(
+    return Team(
         members=frozenset(f"agent_{index:02d}" for index in range(count)),
-        range_m=_RANGE_M,
-        planned_range_m=_PLANNED_M,
+        range_m=range_m,
+        planned_range_m=planned_range_m,
         period_s=60.0,
         duration_s=5.0,
+        max_iterations=max_iterations,
     )
-    return replace(team, **changes)
 
 
 def make_offers(at_m: Sequence[Place], arrivals_s: Sequence[float]) -> tuple[MemberOffer, ...]:
@@ -142,18 +147,28 @@ def _arrivals_s(
     count: int, opens_s: float, spread_s: float, rng: np.random.Generator
 ) -> list[float]:
     """Return times around a window's opening: some before it, most after."""
-    return (opens_s + rng.uniform(-0.2 * spread_s, spread_s, count)).tolist()
+    return [opens_s + float(rng.uniform(-0.2 * spread_s, spread_s)) for _ in range(count)]
 
 
 def sample_meeting(
-    shape: str, count: int, seed: int, spread_s: float = 10.0, tasks: int = 6, **changes: float
+    shape: str,
+    count: int,
+    seed: int,
+    spread_s: float = 10.0,
+    tasks: int = 6,
+    max_iterations: int = 1000,
 ) -> Meeting:
     """Return a meeting at random times that plans a random feasible round."""
     rng = np.random.default_rng(seed)
     problem = _feasible_problem(rng, count, tasks)
     arrivals = _arrivals_s(count, 60.0 * (problem.round - 1), spread_s, rng)
     offers = make_offers(places(shape, count, rng), arrivals)
-    return Meeting(offers, problem.round, make_team(count, **changes), SampleRounds(problem))
+    return Meeting(
+        offers,
+        problem.round,
+        make_team(count, max_iterations=max_iterations),
+        SampleRounds(problem),
+    )
 
 
 def _feasible_problem(rng: np.random.Generator, count: int, tasks: int) -> RoundProblem:

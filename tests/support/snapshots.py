@@ -3,7 +3,8 @@
 ``snapshot``  everything that an object holds, as plain values
 """
 
-from collections.abc import Mapping, Set
+from collections.abc import Mapping
+from collections.abc import Set as AbstractSet
 from typing import Any
 
 __all__ = ["snapshot"]
@@ -15,7 +16,7 @@ def snapshot(value: Any) -> Any:  # noqa: ANN401  # of anything at all
     """Return a deep copy of all mutable state; what is immutable stands for itself."""
     if isinstance(value, Mapping):
         return [(key, snapshot(item)) for key, item in value.items()]
-    if isinstance(value, Set):
+    if isinstance(value, AbstractSet):
         return sorted(value)
     if isinstance(value, list | tuple):
         return [snapshot(item) for item in value]

@@ -4,6 +4,7 @@ import json
 from dataclasses import replace
 
 import pytest
+
 from support.hand_made_run import END_S, MESSAGES, hand_made_records, hand_made_scenario, task
 from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.metrics import RunFacts, connected_intervals, patience_s, result_document
@@ -24,7 +25,7 @@ def test_a_good_run_has_verdict_ok() -> None:
 
 
 def test_the_facts_are_in_the_document() -> None:
-    """What the records don't say comes from the facts, and the factor is simulated per wall time."""
+    """What the records don't say is from the facts; the factor is simulated per wall time."""
     result = document(hand_made_records())
     wanted = {
         "format": "tlcomm-result/1",
@@ -55,7 +56,10 @@ def test_windows_are_counted_with_the_one_satisfied_early() -> None:
 def test_a_missed_window_is_named() -> None:
     """A window without D_c of connection is in the list and in the verdict."""
     records = hand_made_records()
-    records.connectivity = [Connectivity(0, ((0, 1),), True), Connectivity(3_000_000_000, (), False)]
+    records.connectivity = [
+        Connectivity(0, ((0, 1),), True),
+        Connectivity(3_000_000_000, (), False),
+    ]
     result = document(records)
     assert result["communication"] == {"windows": 2, "satisfied": 1, "missed": [1]}
     assert result["verdict"] == ["window 1 missed: connected for 0.000 s at most, not 2 s"]
@@ -107,7 +111,7 @@ def test_a_meeting_that_failed_is_null() -> None:
 
 
 def test_coordination_begins_when_the_team_is_complete() -> None:
-    """Coordination lasts from the last first offer to the last agreement; computing is the worst."""
+    """Coordination is from the last first offer to the last agreement; computing is the worst."""
     own = document(hand_made_records())["rounds"][0]
     assert own["coordination_wall_s"] == pytest.approx(0.25)
     assert own["solve_wall_s"] == 0.02

@@ -1,6 +1,7 @@
 """Tests of ``tlcomm_core.windows``."""
 
 import pytest
+
 from tlcomm_core.windows import Window, judge_windows
 
 S = 1_000_000_000

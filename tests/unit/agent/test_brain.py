@@ -8,7 +8,9 @@ import pytest
 from support.hall import DURATION_S, PERIOD_S, LoneAgent
 from tlcomm_core.agent.actions import CountIgnored, Drive, TaskEvent, TaskEventKind
 from tlcomm_core.agent.events import MessageHeard, TimePassed
+from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.messages import PlanOffer
+from tlcomm_core.protocol.negotiation import Phase
 
 STARTED, FINISHED, REACHED, BEGUN, ENDED, SATISFIED, AGREED, FAULT = TaskEventKind
 
@@ -34,7 +36,7 @@ def test_the_first_odometry_finds_it_at_the_meeting_of_round_0() -> None:
     assert agent.sent == []
     agent.act()
     assert [type(message) for message in agent.sent] == [PlanOffer]
-    assert agent.brain.planned_round == 1
+    assert agent.brain.phase is Phase.GATHERING
 
 
 def test_before_its_first_odometry_it_needs_nothing() -> None:
@@ -43,7 +45,7 @@ def test_before_its_first_odometry_it_needs_nothing() -> None:
     fresh = type(brain)(brain._settings)
     assert fresh.next_need_s == math.inf
     assert fresh.handle(TimePassed(), 0.0) == ()
-    assert fresh.planned_round is None
+    assert fresh.phase is None
 
 
 def test_a_meeting_lasts_for_its_duration(lone: LoneAgent) -> None:
@@ -187,7 +189,7 @@ def test_without_agreement_it_reports_a_fault_and_stays() -> None:
     assert one.times_s(BEGUN) == [0.0]
     assert one.times_s(ENDED) == []
     assert not any(isinstance(action, Drive) for _, action in one.done)
-    assert one.brain.planned_round == 1
+    assert one.brain.phase is Phase.IMPROVING
     asked = len(one.sent)
     one.advance_to(21.0)
     assert len(one.sent) > asked
@@ -209,3 +211,28 @@ def test_alone_at_the_meeting_it_waits() -> None:
     one.advance_to(25.0)
     assert [event.kind for _, event in one.events] == [REACHED]
     assert 10 < len(one.sent) < 30
+
+
+@pytest.mark.parametrize("round_", [1, 40])
+def test_an_offer_reaches_to_the_end_of_the_window(lone: LoneAgent, round_: int) -> None:
+    """Its stops go beyond what can be finished in the window to plan, and begin with the next."""
+    (own,) = next(m for m in lone.sent if isinstance(m, PlanOffer) and m.round == round_).offers
+    departs_s = max(own.arrival_s, (round_ - 1) * PERIOD_S) + DURATION_S
+    finishes_s = [departs_s + stop.finish_offset_s for stop in own.stops]
+    assert finishes_s[-1] > (round_ + 1) * PERIOD_S >= finishes_s[-2]
+    done = [e.plan_index for t, e in lone.events if t <= own.arrival_s and e.kind is FINISHED]
+    assert own.stops[0].task_index == (done[-1] + 1 if done else 0)
+
+
+@pytest.mark.parametrize(
+    ("off_m", "off_rad", "is_taken"),
+    [(0.0, 0.0, True), (0.019, 0.09, True), (0.021, 0.0, False), (0.0, 0.11, False)],
+)
+def test_what_is_within_tolerance_counts_as_arrived(
+    off_m: float, off_rad: float, is_taken: bool
+) -> None:
+    """Predictions go on from where a leg was to end, unless the agent is elsewhere indeed."""
+    expected = Pose(1.0, 1.0, math.pi)
+    actual = Pose(1.0, 1.0 + off_m, -math.pi + off_rad)
+    taken = LoneAgent("one", 1).brain._taken_for(expected, actual)
+    assert taken is (expected if is_taken else actual)

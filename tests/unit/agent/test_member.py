@@ -1,16 +1,15 @@
 """One agent as a shell holds it."""
 
-import math
-
 import pytest
 
 from support.hall import STARTS, hall, make_member
 from tlcomm_core.agent.actions import CountIgnored, Drive, SendMessage
 from tlcomm_core.agent.controller import Pacing
 from tlcomm_core.agent.member import Member, create
-from tlcomm_core.errors import UnreachableTaskError
+from tlcomm_core.errors import PlanningError
 from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.messages import Message
+from tlcomm_core.protocol.negotiation import Phase
 from tlcomm_core.scenario.loader import dumps, loads
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds
@@ -64,6 +63,7 @@ def test_a_step_handles_everything_seen_once() -> None:
     member = placed("one", 1)
     assert member.step(0) != ()
     assert member.step(0) == ()
+    assert member._odometry == []
 
 
 def test_a_message_is_heard_a_latency_after_it_was_sent() -> None:
@@ -109,14 +109,13 @@ def test_it_counts_what_is_said_to_it_on_the_way() -> None:
     assert CountIgnored("not meeting") in one.step(3_000_000_000 + LATENCY_NS)
 
 
-def test_planned_round_and_meetings_ended_go_on_together() -> None:
+def test_phase_and_meetings_ended_go_on_together() -> None:
     """A team of one agrees at once and leaves after D_c."""
     member = placed("one", 1)
-    assert (member.meetings_ended, member.planned_round) == (0, 1)
     member.step(0)
-    assert (member.meetings_ended, member.planned_round) == (0, None)
+    assert (member.meetings_ended, member.phase) == (0, Phase.AGREED)
     member.step(3_000_000_000)
-    assert (member.meetings_ended, member.planned_round) == (1, None)
+    assert (member.meetings_ended, member.phase) == (1, None)
 
 
 def test_periodic_control_is_allowed_for_in_predictions() -> None:
@@ -130,17 +129,7 @@ def test_periodic_control_is_allowed_for_in_predictions() -> None:
 
 def test_an_impossible_task_is_refused() -> None:
     """A member without a plan isn't made."""
-    text = dumps(hall(1).scenario)
-    walled = text.replace("obstacles_m: []", "obstacles_m: [[4.0, 0.0, 4.5, 2.0]]")
-    assert walled != text
-    site = Site.from_scenario(loads(walled))
-    with pytest.raises(UnreachableTaskError, match="b"):
+    text = dumps(hall(1).scenario).replace("F (b & place)", "F (b & !b & place)")
+    site = Site.from_scenario(loads(text))
+    with pytest.raises(PlanningError):
         create("one", site, Pacing.EVENT, Atlas(site.grid))
-
-
-def test_a_lone_member_meets_forever() -> None:
-    """Its needs alone carry it through many windows; needs stay finite."""
-    member = placed("one", 1)
-    member.step(0)
-    assert member.next_need_ns == 3_000_000_000
-    assert member.next_need_ns < math.inf

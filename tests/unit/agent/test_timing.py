@@ -4,7 +4,6 @@ from dataclasses import dataclass, field
 
 from support.hall import STARTS, make_member
 from tlcomm_core.agent.actions import SendMessage
-from tlcomm_core.agent.member import Member
 from tlcomm_core.agent.timing import RoundTiming, TimedMember
 from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.messages import Message
@@ -42,7 +41,7 @@ class Timed:
 
     def __post_init__(self) -> None:
         """Stand at the start."""
-        self.member: Member = make_member(self.name, 2)
+        self.member = make_member(self.name, 2)
         self.member.see_odometry(0, Pose(*STARTS[self.name]), 0.0, 0.0)
         self.member.see_neighbours(0, frozenset(STARTS) - {self.name})
         self._timed = TimedMember(self.member, self.clocks.steady, self.clocks.wall)
@@ -73,9 +72,10 @@ def test_a_round_is_timed_from_the_first_offer_to_the_agreement() -> None:
     assert timing.offered_wall_s == one.clocks.reads[0]
     assert timing.agreed_wall_s in one.clocks.reads
     assert timing.agreed_wall_s > timing.offered_wall_s
-    # Each step takes half a second by the stopwatch; one reading of the wall clock begins each.
+    # Each step takes half a second by the stopwatch, and one reading of the wall clock begins it;
+    # only in the first and the last it doesn't solve: it offers, and hears the last confirmation.
     steps = one.clocks.reads.index(timing.agreed_wall_s)
-    assert timing.solve_wall_s == 0.5 * steps
+    assert timing.solve_wall_s == 0.5 * (steps - 2)
 
 
 def test_what_is_said_after_the_agreement_is_no_offer() -> None:
@@ -104,3 +104,11 @@ def test_steps_away_from_planning_are_not_counted() -> None:
     for tenth in range(2, 30):
         one.step(tenth * 100_000_000)
     assert one._timed._solve_wall_s == 0.0
+
+
+def test_a_team_of_one_is_timed_too() -> None:
+    """It offers and agrees within a single step."""
+    member, clocks = make_member("one", 1), Clocks()
+    member.see_odometry(0, Pose(*STARTS["one"]), 0.0, 0.0)
+    _, timing = TimedMember(member, clocks.steady, clocks.wall).step(0)
+    assert timing == RoundTiming("one", 1, 0.5, 1001.0, 1002.0)

@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 import pytest
-from support.snapshots import snapshot
 
+from support.snapshots import snapshot
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.protocol.confirming import Confirming, digest
 from tlcomm_core.protocol.messages import Confirmation

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+
 from support.meetings import SHAPES, places
 from support.snapshots import snapshot
-
 from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.protocol.consensus import MinimumConsensus
@@ -37,8 +37,7 @@ def middle() -> MinimumConsensus:
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("count", [1, 2, 3, 6, 9])
 def test_all_conclude_the_same_minimum(shape: str, count: int) -> None:
-    """After D exchanges all hold the least change, of equals the first name, in each iteration.
-    """
+    """After D exchanges all hold the least change, of equals the first name, in each iteration."""
     rng = np.random.default_rng(count)
     pairs = links(np.array(places(shape, count, rng)), 0.96)
     exchanges = max(1, diameter(count, pairs) or 0)

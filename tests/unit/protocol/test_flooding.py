@@ -4,9 +4,9 @@ import itertools
 
 import numpy as np
 import pytest
+
 from support.meetings import SHAPES, places
 from support.snapshots import snapshot
-
 from tlcomm_core.protocol.flooding import Flood
 from tlcomm_core.world.radio import diameter, links, neighbours
 

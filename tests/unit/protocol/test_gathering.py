@@ -3,9 +3,9 @@
 from dataclasses import replace
 
 import pytest
+
 from support.meetings import make_offers, make_team
 from support.snapshots import snapshot
-
 from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.protocol.gathering import Gathering
 from tlcomm_core.protocol.messages import PlanOffer

@@ -4,13 +4,12 @@ import math
 from dataclasses import replace
 
 import pytest
+
 from support.meetings import Meeting, sample_meeting
 from support.snapshots import snapshot
-
 from tlcomm_core.game.algorithm import solve
 from tlcomm_core.game.potential import evaluate
 from tlcomm_core.protocol.improving import Improving
-from tlcomm_core.protocol.messages import BestResponse
 from tlcomm_core.protocol.reception import Reception
 
 
@@ -102,7 +101,7 @@ _BROKEN = {
 def test_impossible_values_change_nothing(meeting: Meeting, name: str) -> None:
     """A best response that no agent can have is named and ignored."""
     first, second = pair_of(meeting)
-    sound: BestResponse = second.owed()[0]
+    sound = second.owed()[0]
     in_message, in_strategy, reception = _BROKEN[name]
     broken = replace(sound, strategy=replace(sound.strategy, **in_strategy), **in_message)
     before = snapshot(first)

@@ -4,9 +4,9 @@ import math
 from dataclasses import replace
 
 import pytest
+
 from support.fake_network import FakeNetwork
 from support.meetings import Meeting, make_offers, make_team, sample_meeting
-
 from tlcomm_core.errors import InfeasibleRoundError
 from tlcomm_core.game.problem import Candidates
 from tlcomm_core.protocol.actions import CountIgnored, HoldStrategy, SendMessage
@@ -126,9 +126,7 @@ def test_what_was_kept_in_vain_is_counted(meeting: Meeting) -> None:
     """A message that came a phase early is judged when its phase begins."""
     negotiation = negotiation_of(meeting)
     problem = meeting.problem
-    far = BestResponse(
-        "agent_02", meeting.round, 0, 0, "agent_02", 0.0, problem.strategy(2, 0, 0)
-    )
+    far = BestResponse("agent_02", meeting.round, 0, 0, "agent_02", 0.0, problem.strategy(2, 0, 0))
     assert negotiation.hear(far) == ()
     assert negotiation.hear(far) == (CountIgnored("duplicate"),)
     negotiation.hear(all_offers(meeting, 1))

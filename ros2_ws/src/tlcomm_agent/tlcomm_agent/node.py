@@ -1,11 +1,11 @@
 """One agent as a ROS 2 node: a thin shell around its brain and radio.
 
-``main``       the executable:
-               ``ros2 run tlcomm_agent agent --ros-args -r __ns:=/agent_1 -p scenario:=…``
+``main``       ``ros2 run tlcomm_agent agent --ros-args -r __ns:=/agent_1 -p scenario:=…``
 ``run``        the process's whole life, for whoever supervises it
 ``AgentNode``  the node
 """
 
+import signal
 import sys
 import time
 from collections import Counter
@@ -26,20 +26,15 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 
 from tlcomm_agent import wire
+from tlcomm_agent.arrivals import Arrivals
 from tlcomm_agent.config import AgentConfig
-from tlcomm_core.agent.actions import (
-    Action,
-    CountIgnored,
-    Drive,
-    HoldStrategy,
-    ReportTask,
-    SendMessage,
-)
+from tlcomm_core.agent import actions
 from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
 from tlcomm_core.agent.member import create
 from tlcomm_core.agent.timing import TimedMember
 from tlcomm_core.errors import InputError, PlanningError, TlcommError
 from tlcomm_core.scenario.site import Site
+from tlcomm_core.units import nanoseconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_msgs import msg
 
@@ -109,7 +104,8 @@ class AgentNode(Node):
         self._timed: Final = TimedMember(self._member, time.perf_counter, time.time)
         self._odometry_count = 0
         self._connectivity_count = 0
-        self._team_counts: Final = dict.fromkeys(self.config.others, 0)
+        latency_s = self.config.scenario.communication.hop_latency_s
+        self._arrivals: Final = Arrivals(self.config.others, nanoseconds(latency_s))
         self._tick: msg.Tick | None = None
         self._published = self._commands = self._team_messages = 0
         self._is_ready = False
@@ -145,13 +141,8 @@ class AgentNode(Node):
         self._strategy_pub = create(msg.TeamStrategy, "team_strategy", held)
         self._timing_pub = create(msg.RoundTiming, "round_timing", _DEPTH)
         # Nothing is estimated yet, but the topic is there for those who look for it.
-        self._estimate_pub = create(msg.Estimate, "estimate", _DEPTH)
-        self._recorded_pubs = (
-            self._task_pub,
-            self._strategy_pub,
-            self._timing_pub,
-            self._estimate_pub,
-        )
+        estimate_pub = create(msg.Estimate, "estimate", _DEPTH)
+        self._recorded_pubs = (self._task_pub, self._strategy_pub, self._timing_pub, estimate_pub)
 
     def _create_subscriptions(self) -> None:
         subscribe = self.create_subscription
@@ -172,8 +163,7 @@ class AgentNode(Node):
         kind = wire.TEAM_TYPES[topic]
 
         def take(data: bytes) -> None:
-            self._team_counts[other] += 1
-            self._hear(other, kind, data)
+            self._arrivals.note(other, self._hear(other, kind, data))
             self._proceed()
 
         return self.create_subscription(kind, f"/{other}/{topic}", take, _DEPTH, raw=True)
@@ -198,23 +188,27 @@ class AgentNode(Node):
             self._member.see_neighbours(stamp_ns, neighbours)
         self._proceed()
 
-    def _hear(self, other: str, kind: type, data: bytes) -> None:
-        """Take what another agent's topic carries, whatever that is."""
+    def _hear(self, other: str, kind: type, data: bytes) -> int:
+        """Take what another agent's topic carries, whatever that is; return when it was sent.
+
+        What can't be read counts as sent at the start, so that nobody waits for it.
+        """
         try:
             message, sent_ns = wire.decode_message(deserialize_message(data, kind))
         except wire.WireError as error:
             self._ignore(f"{other}: {error}")
-            return
+            return 0
         except Exception as error:  # noqa: BLE001 (bytes from outside break rclpy in its own ways)
             self._ignore(f"{other}: not a {kind.__name__}: {error}")
-            return
+            return 0
         if message.sender != other:
             self._ignore(f"{other}: a message in the name of {message.sender!r}")
-            return
+            return sent_ns
         if not self.config.pace.is_lockstep:
             # The sender's clock may be a tick ahead of this one's; what was heard was said before.
             sent_ns = min(sent_ns, self._now_ns())
         self._member.receive(message, sent_ns)
+        return sent_ns
 
     def _take_tick(self, tick: msg.Tick) -> None:
         self._ready_timer.cancel()
@@ -248,16 +242,14 @@ class AgentNode(Node):
         self.is_done = self._tick_sub.get_publisher_count() == 0
 
     def _has_all(self, tick: msg.Tick) -> bool:
-        """Whether everything that a tick counts has arrived."""
         due = dict(zip(self.config.scenario.agents, tick.agent_counts, strict=True))
         return (
             self._odometry_count >= tick.odometry_count
             and self._connectivity_count >= tick.connectivity_count
-            and all(count >= due[other] for other, count in self._team_counts.items())
+            and self._arrivals.are_complete(due, tick.time_ns)
         )
 
     def _step_freely(self) -> None:
-        """Act now, unless the run hasn't begun."""
         if not self._odometry_count or self._is_stopped:
             return
         self._ready_timer.cancel()
@@ -267,27 +259,27 @@ class AgentNode(Node):
             self._answer(0)
 
     def _step(self, now_ns: int) -> None:
-        actions, timing = self._timed.step(now_ns)
-        for action in actions:
+        due, timing = self._timed.step(now_ns)
+        for action in due:
             self._perform(action, now_ns)
         if timing is not None:
             self._publish(self._timing_pub, wire.encode_round_timing(timing, now_ns))
 
-    def _perform(self, action: Action, now_ns: int) -> None:
+    def _perform(self, action: actions.Action, now_ns: int) -> None:
         match action:
-            case Drive():
+            case actions.Drive():
                 self._commands += 1
                 self._publish(self._command_pub, wire.encode_drive(action, now_ns))
-            case SendMessage(message):
+            case actions.SendMessage(message):
                 self._team_messages += 1
                 publisher = self._team_pubs[wire.team_topic(message)]
                 self._publish(publisher, wire.encode_message(message, now_ns))
-            case ReportTask(event):
-                name = self.config.name
-                self._publish(self._task_pub, wire.encode_task_event(event, name, now_ns))
-            case HoldStrategy(strategy):
+            case actions.ReportTask(event):
+                task_event = wire.encode_task_event(event, self.config.name, now_ns)
+                self._publish(self._task_pub, task_event)
+            case actions.HoldStrategy(strategy):
                 self._publish(self._strategy_pub, wire.encode_team_strategy(strategy, now_ns))
-            case CountIgnored(reason):
+            case actions.CountIgnored(reason):
                 self.ignored[reason] += 1
             case _:
                 assert_never(action)
@@ -370,16 +362,24 @@ def run(
         PlanningError: the agent's task has no plan.
         InfeasibleRoundError: the team has no admissible next meeting.
     """
+    # rclpy shuts itself down on SIGINT; a KeyboardInterrupt besides could strike anywhere.
+    previous = signal.signal(signal.SIGINT, lambda *_: None)
     rclpy.init(args=args)
     try:
         node = AgentNode(namespace=namespace, parameters=parameters, on_ready=on_ready)
         on_started()
         spin(node, lambda: node.is_done)
         node.get_logger().info(f"done; ignored: {dict(node.ignored)}")
-    except (KeyboardInterrupt, ExternalShutdownException):
+    except ExternalShutdownException:
+        return False
+    except RuntimeError:
+        # A signal that shuts rclpy down in the midst of anything makes it fail in its own ways.
+        if rclpy.ok():
+            raise
         return False
     finally:
         rclpy.try_shutdown()
+        signal.signal(signal.SIGINT, previous)
     return True
 
 
@@ -387,12 +387,9 @@ def main(args: Sequence[str] | None = None) -> int:
     """Run an agent; return the exit status."""
     try:
         run(spin=_spin, args=args)
-    except (InputError, PlanningError) as error:
-        print(f"agent: {error}", file=sys.stderr)  # noqa: T201 (the one line to the user)
-        return _STATUS_INPUT
     except TlcommError as error:
         print(f"agent: {error}", file=sys.stderr)  # noqa: T201 (the one line to the user)
-        return _STATUS_BROKEN
+        return _STATUS_INPUT if isinstance(error, InputError | PlanningError) else _STATUS_BROKEN
     return 0
 
 

@@ -6,6 +6,7 @@
 ``RunBrokenError``  somebody doesn't answer
 """
 
+import signal
 import sys
 import time
 from collections.abc import Callable, Sequence
@@ -259,15 +260,23 @@ def run(
         InputError: a parameter or the scenario can't be used.
         RunBrokenError: somebody hasn't answered in time.
     """
+    # rclpy shuts itself down on SIGINT; a KeyboardInterrupt besides could strike anywhere.
+    previous = signal.signal(signal.SIGINT, lambda *_: None)
     rclpy.init(args=args)
     try:
         node = SimNode(parameters=parameters, on_ready=on_ready, on_progress=on_progress)
         on_started()
         spin(node, lambda: node.is_done)
-    except (KeyboardInterrupt, ExternalShutdownException):
+    except ExternalShutdownException:
+        return False
+    except RuntimeError:
+        # A signal that shuts rclpy down in the midst of anything makes it fail in its own ways.
+        if rclpy.ok():
+            raise
         return False
     finally:
         rclpy.try_shutdown()
+        signal.signal(signal.SIGINT, previous)
     return True
 
 
@@ -275,12 +284,9 @@ def main(args: Sequence[str] | None = None) -> int:
     """Run the sim; return the exit status."""
     try:
         run(spin=_spin, args=args)
-    except InputError as error:
-        print(f"sim: {error}", file=sys.stderr)  # noqa: T201 (the one line to the user)
-        return _STATUS_INPUT
     except TlcommError as error:
         print(f"sim: {error}", file=sys.stderr)  # noqa: T201 (the one line to the user)
-        return _STATUS_BROKEN
+        return _STATUS_INPUT if isinstance(error, InputError) else _STATUS_BROKEN
     return 0
 
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+
 from support.hand_made_run import (
     AGENTS,
     hand_made_records,

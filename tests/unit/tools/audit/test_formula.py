@@ -3,6 +3,7 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from tlcomm_core.errors import InputError
 from tlcomm_tools.audit.formula import (
     Letter,
@@ -90,7 +91,7 @@ def test_fulfilments_are_counted_anew(text: str, letters: str, ends: list[int]) 
     assert count_fulfilled(part, word(letters)) == ends
 
 
-def holds(tree: Tree, letters: list[Letter], at: int) -> bool:
+def holds(tree: Tree, letters: list[Letter], at: int) -> bool:  # noqa: PLR0911 (a case each)
     """Tell by the definition whether a co-safe formula holds for certain from one letter on."""
     operator, *operands = tree
     rest = range(at, len(letters))

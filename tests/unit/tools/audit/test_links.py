@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from tlcomm_core.geometry import Pose
 from tlcomm_core.world.observation import Odometry
 from tlcomm_tools.audit.links import judge_windows, link_intervals, team_intervals
@@ -79,10 +80,11 @@ def test_two_pairs_are_no_team() -> None:
 
 
 def test_one_link_taking_over_from_another_keeps_the_team() -> None:
-    """When one link ends at the instant at which another begins, the connection goes on."""
-    left, right = (track((0.0, x, 0.0), (10.0, x, 0.0)) for x in (0.0, 1.0))
-    moving = track((0.0, -1.0, 0.0), (10.0, 2.0, 0.0))
-    assert team_intervals([left, right, moving], 1.0) == [(0.0, 10.0)]
+    """An agent that leaves one range at the instant at which it enters another stays connected."""
+    chain = [(0.0, 0.0), (0.0, 1.0), (0.5, 1.8), (1.5, 1.8), (2.0, 1.0), (2.0, 0.0)]
+    tracks = [track((0.0, x, y), (8.0, x, y)) for x, y in chain]
+    moving = track((0.0, -1.0, 0.0), (8.0, 3.0, 0.0))
+    assert team_intervals([*tracks, moving], 1.0) == [(0.0, 8.0)]
 
 
 def test_a_single_agent_is_a_team() -> None:

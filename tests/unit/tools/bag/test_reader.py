@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
+
 from support.hand_made_run import AGENTS, SHARE, hand_made_records, serialize_run, write_bag
 from tlcomm_core.errors import InputError
 from tlcomm_core.records import RunRecords, event_log
@@ -36,7 +37,14 @@ def test_a_bag_gives_back_the_records(tmp_path: Path) -> None:
 
 def test_records_are_in_order_of_time(tmp_path: Path) -> None:
     """Each list is ordered by its stamps, whatever the order in the bag."""
-    write_bag(tmp_path / "bag", hand_made_records())
+    store = load_typestore(SHARE)
+    with Writer(tmp_path / "bag", version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+        connections = {
+            topic.name: writer.add_connection(topic.name, topic.type, typestore=store)
+            for topic in recorded_topics(AGENTS)
+        }
+        for name, _, data in reversed(list(serialize_run(store, hand_made_records()))):
+            writer.write(connections[name], 0, data)
     records = read_run(tmp_path / "bag").records
     for entries in (records.odometry, records.connectivity, records.tasks, records.strategies):
         stamps_ns = [entry.stamp_ns for entry in entries]
@@ -67,7 +75,7 @@ def test_a_bag_of_another_writer(tmp_path: Path) -> None:
 
 
 def test_a_bag_in_several_files(tmp_path: Path) -> None:
-    """The files of a split bag are read in the order that metadata.yaml says."""
+    """The files of a split bag are read that metadata.yaml lists, and no others."""
     early, late = hand_made_records(), hand_made_records()
     for own in (early.odometry, early.connectivity, early.tasks, early.strategies):
         own[:] = [entry for entry in own if entry.stamp_ns < 10_000_000_000]
@@ -77,6 +85,7 @@ def test_a_bag_in_several_files(tmp_path: Path) -> None:
     late.messages_sent = {"east": 1, "west": 1}
     first = write_bag(tmp_path / "bag", early).path
     second = write_bag(tmp_path / "more", late).path
+    shutil.copy(second, tmp_path / "bag" / "stray.mcap")
     shutil.move(second, tmp_path / "bag" / "a_before_all.mcap")
     metadata = tmp_path / "bag" / "metadata.yaml"
     metadata.write_text(

@@ -2,15 +2,22 @@
 
 import resource
 import signal
+import struct
 import subprocess
 import sys
 from pathlib import Path
+from zlib import crc32
 
 import pytest
 import yaml
+import zstandard
+from mcap.data_stream import ReadDataStream
+from mcap.opcode import Opcode
 from mcap.reader import make_reader
+from mcap.records import Chunk, MessageIndex
 from rosbags.highlevel import AnyReader
 from rosbags.interfaces import QosDurability
+
 from support.hand_made_run import AGENTS, SHARE, hand_made_records, write_bag
 from tlcomm_tools.bag.container import read_container
 from tlcomm_tools.bag.definitions import load_typestore, read_definition
@@ -87,6 +94,38 @@ def test_messages_of_one_topic_are_found_by_index(tmp_path: Path) -> None:
         found = list(make_reader(stream).iter_messages(topics=["/east/odom"]))
     times_ns = [message.log_time for _, _, message in found]
     assert times_ns == [own.stamp_ns for own in records.odometry if own.agent == "east"]
+
+
+def test_message_indexes_point_at_their_messages(tmp_path: Path) -> None:
+    """Each entry of each message index leads to a message of its channel and time."""
+    writer = write_bag(tmp_path / "bag", hand_made_records())
+    with writer.path.open("rb") as stream:
+        summary = make_reader(stream).get_summary()
+        assert summary is not None
+        found = 0
+        for place in summary.chunk_indexes:
+            stream.seek(place.chunk_start_offset + 9)
+            chunk = Chunk.read(ReadDataStream(stream))
+            data = zstandard.decompress(chunk.data, chunk.uncompressed_size)
+            for channel, offset in place.message_index_offsets.items():
+                stream.seek(offset)
+                assert stream.read(1)[0] == Opcode.MESSAGE_INDEX
+                stream.seek(offset + 9)
+                index = MessageIndex.read(ReadDataStream(stream))
+                assert index.channel_id == channel
+                for time_ns, position in index.records:
+                    opcode, _, number, _, log_ns = struct.unpack_from("<BQHIQ", data, position)
+                    assert (opcode, number, log_ns) == (Opcode.MESSAGE, channel, time_ns)
+                    found += 1
+    assert found == count_messages(writer.path)
+
+
+def test_the_footer_has_the_summarys_checksum(tmp_path: Path) -> None:
+    """The checksum covers the summary and the footer up to itself, as the format demands."""
+    data = write_bag(tmp_path / "bag", hand_made_records()).path.read_bytes()
+    start, _, checksum = struct.unpack("<QQI", data[-28:-8])
+    assert data[-37] == Opcode.FOOTER
+    assert crc32(data[start:-12]) == checksum
 
 
 def test_metadata_has_counts_and_qualities(tmp_path: Path) -> None:

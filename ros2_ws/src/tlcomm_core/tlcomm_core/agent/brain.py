@@ -25,7 +25,7 @@ from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.geometry import Pose, wrap_angle
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
 from tlcomm_core.protocol.actions import CountIgnored
-from tlcomm_core.protocol.negotiation import Negotiation, Rounds
+from tlcomm_core.protocol.negotiation import Negotiation, Phase, Rounds
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.workspace.travel import Leg, TravelTimes
 from tlcomm_core.world.unicycle import integrate
@@ -109,11 +109,9 @@ class Brain:
         return self._round
 
     @property
-    def planned_round(self) -> int | None:
-        """The round that is being planned just now; ``None`` when none is."""
-        if isinstance(self._activity, _Meeting) and self._activity.negotiation.agreed is None:
-            return self._activity.negotiation.round
-        return None
+    def phase(self) -> Phase | None:
+        """Where planning the next round stands; ``None`` when not at a meeting."""
+        return self._activity.negotiation.phase if isinstance(self._activity, _Meeting) else None
 
     @property
     def next_need_s(self) -> float:

@@ -20,6 +20,7 @@ from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.planning.synthesis import plan_task
 from tlcomm_core.planning.transition_system import build
 from tlcomm_core.protocol.messages import Message
+from tlcomm_core.protocol.negotiation import Phase
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds, seconds
@@ -55,9 +56,9 @@ class Member:
         return self._brain.meetings_ended
 
     @property
-    def planned_round(self) -> int | None:
-        """The round that is being planned just now; ``None`` when none is."""
-        return self._brain.planned_round
+    def phase(self) -> Phase | None:
+        """Where planning the next round stands; ``None`` when not at a meeting."""
+        return self._brain.phase
 
     @property
     def out_of_range(self) -> int:

@@ -6,10 +6,12 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Final
 
 from tlcomm_core.agent.actions import Action
 from tlcomm_core.agent.member import Member
 from tlcomm_core.protocol.actions import HoldStrategy, SendMessage
+from tlcomm_core.protocol.negotiation import Phase
 
 __all__ = ["RoundTiming", "TimedMember"]
 
@@ -31,6 +33,11 @@ class RoundTiming:
     solve_wall_s: float
     offered_wall_s: float
     agreed_wall_s: float
+
+
+# A step from one of these to one of those went through the whole of Algorithm 1, or began it.
+_EARLIER: Final = (None, Phase.GATHERING)
+_LATER: Final = (Phase.IMPROVING, Phase.CONFIRMING, Phase.AGREED)
 
 
 class TimedMember:
@@ -59,15 +66,16 @@ class TimedMember:
         """Take a step; return its actions and, when it agreed on a round, what that took."""
         begin_wall_s = self._wall_s()
         begin_s = self._stopwatch_s()
-        was_planning = self.member.planned_round is not None
+        before = self.member.phase
         actions = self.member.step(now_ns)
         elapsed_s = self._stopwatch_s() - begin_s
-        if was_planning or self.member.planned_round is not None:
-            self._solve_wall_s += elapsed_s
-            # What is still said after the agreement offers nothing.
-            if self._offered_wall_s is None and any(isinstance(a, SendMessage) for a in actions):
-                self._offered_wall_s = begin_wall_s
         held = next((a.strategy for a in actions if isinstance(a, HoldStrategy)), None)
+        if before is Phase.IMPROVING or (before in _EARLIER and self.member.phase in _LATER):
+            self._solve_wall_s += elapsed_s
+        # What is still said after the agreement offers nothing.
+        is_planning = before is not Phase.AGREED and self.member.phase is not None
+        if is_planning and self._offered_wall_s is None and _says_something(actions):
+            self._offered_wall_s = begin_wall_s
         if held is None:
             return actions, None
         timing = RoundTiming(
@@ -80,3 +88,7 @@ class TimedMember:
         self._solve_wall_s = 0.0
         self._offered_wall_s = None
         return actions, timing
+
+
+def _says_something(actions: tuple[Action, ...]) -> bool:
+    return any(isinstance(action, SendMessage) for action in actions)

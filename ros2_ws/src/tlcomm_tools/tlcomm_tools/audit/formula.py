@@ -14,7 +14,14 @@ from typing import Any
 
 from tlcomm_core.errors import InputError
 
-__all__ = ["Letter", "Tree", "count_fulfilled", "needs_only_actions", "read_formula", "recurring_part"]
+__all__ = [
+    "Letter",
+    "Tree",
+    "count_fulfilled",
+    "needs_only_actions",
+    "read_formula",
+    "recurring_part",
+]
 
 Letter = frozenset[str]
 """The atoms that are true."""

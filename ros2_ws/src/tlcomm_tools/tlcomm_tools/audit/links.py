@@ -84,19 +84,19 @@ def team_intervals(tracks: Sequence[Track], range_m: float) -> list[Interval]:
     end_s = min(track.times_s[-1] for track in tracks)
     if len(tracks) == 1:
         return [(float(begin_s), float(end_s))]
-    return _connected(sorted(changes), len(tracks))
+    # Of changes at one instant a link's begin comes first: what takes over leaves no gap.
+    changes.sort(key=lambda change: (change[0], not change[1]))
+    return _connected(changes, len(tracks))
 
 
 def _connected(changes: Sequence[tuple[float, bool, int, int]], agents: int) -> list[Interval]:
     neighbours = [0] * agents
     intervals: list[Interval] = []
     since_s: float | None = None
-    for index, (time_s, appears, i, j) in enumerate(changes):
+    for time_s, appears, i, j in changes:
         mask = (1 << j), (1 << i)
         for agent, bit in zip((i, j), mask, strict=True):
             neighbours[agent] = neighbours[agent] | bit if appears else neighbours[agent] & ~bit
-        if index + 1 < len(changes) and changes[index + 1][0] == time_s:
-            continue
         connected = _reaches_all(neighbours)
         if connected and since_s is None:
             since_s = time_s

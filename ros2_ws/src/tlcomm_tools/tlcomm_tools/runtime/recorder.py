@@ -8,6 +8,7 @@ In lock step it takes part like an agent: a tick says how many messages have bee
 answered only when all of them have arrived. So nothing can be missing without being noticed.
 """
 
+import signal
 import struct
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -94,6 +95,8 @@ def _open_bag(settings: RecorderSettings) -> BagWriter:
 
 def _record(settings: RecorderSettings, writer: BagWriter, spin: Spin, notifier: Notifier) -> bool:
     """Record; return whether the run came to its end."""
+    # rclpy shuts itself down on SIGINT; a KeyboardInterrupt besides could strike anywhere.
+    previous = signal.signal(signal.SIGINT, lambda *_: None)
     context = rclpy.Context()
     rclpy.init(context=context, signal_handler_options=SignalHandlerOptions.ALL)
     node = None
@@ -101,12 +104,13 @@ def _record(settings: RecorderSettings, writer: BagWriter, spin: Spin, notifier:
         node = Recorder(settings, writer, notifier, context)
         notifier.tell(Started())
         spin(node, lambda: node.is_done)
-    except (KeyboardInterrupt, ExternalShutdownException):
+    except ExternalShutdownException:
         return False
     finally:
         if node is not None:
             node.destroy_node()
         rclpy.try_shutdown(context=context)
+        signal.signal(signal.SIGINT, previous)
     return True
 
 

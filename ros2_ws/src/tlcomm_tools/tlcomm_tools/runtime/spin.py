@@ -6,15 +6,15 @@
 
 An executor rebuilds its wait set from Python objects before every wait, with two event handlers
 per publisher and subscription in it; that is more than half of what a small message costs. Here
-the set is kept, holds subscriptions, timers and two guard conditions only, and a subscription that
+the set is kept, holds subscriptions, timers and one guard condition only, and a subscription that
 is ready is emptied at once. The price is rclpy's private wait set, used in this module alone.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.guard_condition import GuardCondition
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerGuardCondition
@@ -56,10 +56,11 @@ def spin_executor(node: Node, done: Callable[[], bool]) -> None:
     executor = SingleThreadedExecutor(context=node.context)
     executor.add_node(node)
     try:
-        while not done():
-            if not node.context.ok():
-                raise ExternalShutdownException
-            executor.spin_once(timeout_sec=_WAIT_NS * 1e-9)
+        with _shutdown_recognised(node):
+            while not done():
+                if not node.context.ok():
+                    raise ExternalShutdownException
+                executor.spin_once(timeout_sec=_WAIT_NS * 1e-9)
     finally:
         executor.remove_node(node)
         executor.shutdown()
@@ -72,10 +73,22 @@ def spin_fast(node: Node, done: Callable[[], bool]) -> None:
     """
     loop = _Loop(node)
     try:
-        while not done():
-            loop.turn()
+        with _shutdown_recognised(node):
+            while not done():
+                loop.turn()
     finally:
         loop.close()
+
+
+@contextmanager
+def _shutdown_recognised(node: Node) -> Iterator[None]:
+    """Turn what rclpy raises when a signal shuts it down in the midst of anything into one kind."""
+    try:
+        yield
+    except RuntimeError as error:
+        if node.context.ok():
+            raise
+        raise ExternalShutdownException from error
 
 
 def _can_spin_fast(node: Node) -> bool:
@@ -91,18 +104,15 @@ class _Loop:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._context = node.context
-        self._wake = GuardCondition(None, None, context=self._context)
         self._signal = SignalHandlerGuardCondition(self._context)
         self._subscriptions: list[Subscription] = []
         self._timers: list[Any] = []
         self._guards: list[Any] = []
-        self._context.on_shutdown(self._wake.trigger)
         self._build()
 
     def close(self) -> None:
-        """Give back the guard conditions, before the context goes."""
+        """Give back the guard condition, before the context goes."""
         self._signal.destroy()
-        self._wake.destroy()
 
     def turn(self) -> None:
         """Wait for anything at all, at most 0.1 s, and execute what is ready."""
@@ -132,7 +142,7 @@ class _Loop:
         node = self._node
         self._subscriptions = [*node.subscriptions]
         self._timers = [*node.timers]
-        self._guards = [self._wake, self._signal, *node.guards]
+        self._guards = [self._signal, *node.guards]
         self._pointers = [subscription.handle.pointer for subscription in self._subscriptions]
         self._wait_set = rclpy_implementation.WaitSet(
             len(self._subscriptions),

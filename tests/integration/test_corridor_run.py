@@ -1,0 +1,133 @@
+"""A team of real processes in the corridor: whole runs, and runs that are broken on purpose."""
+
+import os
+import signal
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tlcomm_core.mission import Mission
+from tlcomm_core.pace import Pace, parse_pace
+from tlcomm_core.records import event_log
+from tlcomm_core.scenario.loader import load_scenario
+from tlcomm_core.scenario.site import Site
+from tlcomm_core.simulation import simulate
+from tlcomm_core.world.observation import Odometry
+from tlcomm_tools.bag.reader import read_run
+from tlcomm_tools.run import RunOptions, RunReport, run_mission
+from tlcomm_tools.status import Status
+
+CORRIDOR = Path(__file__).parents[2] / "scenarios" / "corridor.yaml"
+SCENARIO = load_scenario(CORRIDOR)
+LOCKSTEP = parse_pace("lockstep")
+SHARED_MEMORY = Path("/dev/shm")  # noqa: S108 (where middlewares leave things behind)
+
+
+def options_of(out: Path, rounds: int, pace: Pace = LOCKSTEP) -> RunOptions:
+    """Return a run of the corridor."""
+    return RunOptions(
+        scenario=SCENARIO,
+        method="team",
+        solver="best-response",
+        seed=0,
+        pace=pace,
+        rounds=rounds,
+        until_s=None,
+        out=out,
+    )
+
+
+def run_and_strike(out: Path, strike: Callable[[], None]) -> RunReport:
+    """Begin a long run, and do something to it once it is on its way."""
+    struck = False
+
+    def strike_once(_: float, meetings_ended: int) -> None:
+        nonlocal struck
+        if meetings_ended and not struck:
+            struck = True
+            strike()
+
+    return run_mission(options_of(out, 10_000), strike_once)
+
+
+def processes(out: Path) -> dict[int, str]:
+    """Return command lines of the living processes of the run in a folder, by process id."""
+    found = {}
+    for path in Path("/proc").glob("[0-9]*"):
+        try:
+            words = (path / "cmdline").read_text(encoding="utf-8", errors="replace").split("\0")
+            state = (path / "stat").read_text(encoding="ascii").rpartition(")")[2].split()[0]
+        except (OSError, UnicodeDecodeError):
+            continue
+        if "tlcomm_tools.runtime.process" in words and state != "Z":
+            line = " ".join(words)
+            if str(out) in line:
+                found[int(path.name)] = line
+    return found
+
+
+def process_of(out: Path, name: str) -> int:
+    """Return the process id of an agent, the sim or the recorder."""
+    role = f"process {name} " if name in {"sim", "recorder"} else f"agent --name {name} "
+    (pid,) = [pid for pid, line in processes(out).items() if role in line]
+    return pid
+
+
+def odometry_key(odometry: Odometry) -> tuple[int, str]:
+    """Order odometry as it was measured."""
+    return odometry.stamp_ns, odometry.agent
+
+
+def test_lock_step_run_equals_the_simulation(tmp_path: Path) -> None:
+    """Over ROS the same decisions fall and the same poses are recorded, to the bit; all is well."""
+    before = set(SHARED_MEMORY.iterdir())
+    report = run_mission(options_of(tmp_path / "run", 2), lambda *_: None)
+    assert report.status is Status.FINE, report
+    assert report.result["verdict"] == "ok"
+    recorded = read_run(report.folder.bag).records
+    expected = simulate(Mission(Site.from_scenario(SCENARIO), 0, 2, None)).records
+    assert list(event_log(recorded)) == list(event_log(expected))
+    assert sorted(recorded.odometry, key=odometry_key) == sorted(
+        expected.odometry, key=odometry_key
+    )
+    assert recorded.connectivity == expected.connectivity
+    assert recorded.messages_sent == expected.messages_sent
+    assert set(SHARED_MEMORY.iterdir()) <= before
+    assert processes(tmp_path) == {}
+
+
+def test_free_run_meets(tmp_path: Path) -> None:
+    """With a clock that runs by itself the team meets, and agrees on the next meeting."""
+    report = run_mission(options_of(tmp_path / "run", 1, Pace(5.0)), lambda *_: None)
+    assert report.status is Status.FINE, report
+    assert report.result["communication"]["missed"] == []
+
+
+@pytest.mark.parametrize("victim", [next(iter(SCENARIO.agents)), "sim", "recorder"])
+def test_killed_process_is_named_and_the_bag_readable(tmp_path: Path, victim: str) -> None:
+    """SIGKILL to any process ends the run by that name; what was recorded so far can be read."""
+    out = tmp_path / "run"
+    report = run_and_strike(out, lambda: os.kill(process_of(out, victim), signal.SIGKILL))
+    assert report.status is Status.BROKEN
+    assert report.failure is not None
+    assert (report.failure.name, report.failure.reason) == (victim, "killed by SIGKILL")
+    recorded = read_run(report.folder.bag).records
+    assert recorded.odometry
+    assert recorded.strategies
+    assert processes(out) == {}
+
+
+def test_interrupted_run_leaves_nobody_and_a_whole_bag(tmp_path: Path) -> None:
+    """Ctrl-C ends all processes, and the bag is closed as after any other run."""
+    out = tmp_path / "run"
+    before = set(SHARED_MEMORY.iterdir())
+    report = run_and_strike(out, lambda: os.kill(os.getpid(), signal.SIGINT))
+    assert report.status is Status.INTERRUPTED
+    recorded = read_run(report.folder.bag)
+    assert not recorded.damage
+    assert recorded.records.odometry
+    assert processes(out) == {}
+    assert set(SHARED_MEMORY.iterdir()) <= before
+    for log in report.folder.logs.glob("*.log"):
+        assert "Traceback" not in log.read_text(encoding="utf-8")

@@ -1,0 +1,184 @@
+"""Runs as real processes: what they record, and what is left of them when something breaks."""
+
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from rosbags.highlevel import AnyReader
+
+from tlcomm_core.scenario.loader import loads
+from tlcomm_tools.audit.findings import audit_run
+from tlcomm_tools.bag.reader import read_run
+from tlcomm_tools.bag.topics import recorded_topics
+
+pytest.importorskip("rclpy", reason="needs ROS 2: run by scripts/test")
+
+SCENARIO = Path(__file__).parents[2] / "scenarios" / "corridor.yaml"
+AGENTS = ("west", "carrier", "east")
+
+
+def command(*arguments: str) -> list[str]:
+    """Return the command line of a verb."""
+    return [sys.executable, "-m", "tlcomm_tools", *arguments]
+
+
+def processes_of(folder: Path, role: str = "") -> list[int]:
+    """Return the processes of a run that still live, by their command lines."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            words = path.read_bytes().split(b"\0")
+        except (FileNotFoundError, ProcessLookupError):
+            continue
+        if any(str(folder).encode() in word for word in words) and role.encode() in b" ".join(
+            words
+        ):
+            found.append(int(path.parent.name))
+    return found
+
+
+def start_run(folder: Path) -> "subprocess.Popen[str]":
+    """Start a run that goes on until something ends it."""
+    return subprocess.Popen(
+        command("run", str(SCENARIO), "--until", "1e6", "--out", str(folder)),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def break_run(folder: Path, act: Callable[["subprocess.Popen[str]"], None]) -> tuple[int, str]:
+    """Run, act once simulated time goes on, and return exit status and errors."""
+    with start_run(folder) as process:
+        assert process.stderr is not None
+        for line in process.stderr:
+            if " 0.0 s simulated" not in line:
+                break
+        act(process)
+        _, errors = process.communicate(timeout=60)
+    return process.returncode, errors
+
+
+def assert_readable(folder: Path) -> None:
+    """The bag has something in it, for us and for the rosbags library, and nothing is wrong."""
+    run = read_run(folder)
+    assert run.damage == ""
+    assert run.end_ns > 0
+    with AnyReader([folder / "bag"]) as reader:
+        assert reader.message_count > 0
+    assert audit_run(loads(run.notes["scenario"]), run).violations == ()
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """Return a finished run's folder and what it printed."""
+    folder = tmp_path_factory.mktemp("finished") / "run"
+    arguments = ("run", str(SCENARIO), "--rounds", "3", "--out", str(folder), "--json")
+    done = subprocess.run(command(*arguments), capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return folder, done.stdout
+
+
+def test_a_run_prints_its_result(finished: tuple[Path, str]) -> None:
+    """--json is the file's content and the folder's name, and nothing else."""
+    folder, printed = finished
+    document = json.loads(printed)
+    assert document.pop("folder") == str(folder)
+    assert document == json.loads((folder / "result.json").read_text("utf-8"))
+    assert document["verdict"] == "ok"
+    assert [own["round"] for own in document["rounds"]] == [1, 2, 3]
+
+
+def test_a_run_leaves_no_process(finished: tuple[Path, str]) -> None:
+    """When the command returns none of its processes lives."""
+    assert processes_of(finished[0]) == []
+
+
+def test_run_and_simulation_are_one(finished: tuple[Path, str], tmp_path: Path) -> None:
+    """The event log from the bag equals the simulation's byte for byte, and so do the results."""
+    folder, _ = finished
+    arguments = ("simulate", str(SCENARIO), "--rounds", "3", "--out", str(tmp_path / "run"))
+    subprocess.run(command(*arguments), capture_output=True, check=True)
+    names = ("events.jsonl", "scenario.yaml")
+    for name in names:
+        assert (folder / name).read_bytes() == (tmp_path / "run" / name).read_bytes()
+    recorded, simulated = (
+        json.loads((path / "result.json").read_text("utf-8")) for path in (folder, tmp_path / "run")
+    )
+    for document in (recorded, simulated):
+        for key in ("wall_s", "realtime_factor"):
+            del document[key]
+        for own in document["rounds"]:
+            del own["solve_wall_s"], own["coordination_wall_s"]
+    assert recorded == simulated
+
+
+def test_every_topic_is_in_the_bag(finished: tuple[Path, str]) -> None:
+    """The bag has the contract's topics with their types, and the clock's tenths of a second."""
+    with AnyReader([finished[0] / "bag"]) as reader:
+        found = {own.topic: own.msgtype for own in reader.connections}
+        counts = {own.topic: own.msgcount for own in reader.connections}
+        assert reader.duration > 90_000_000_000
+    assert found == {own.name: own.type for own in recorded_topics(AGENTS)}
+    assert counts["/clock"] == pytest.approx(reader.duration / 1e8, abs=2)
+    assert min(counts[f"/{name}/cmd_vel"] for name in AGENTS) > 10
+
+
+def test_the_audit_passes(finished: tuple[Path, str]) -> None:
+    """The audit of the run's folder finds nothing, and tasks done again and again."""
+    done = subprocess.run(
+        command("check", str(finished[0]), "--json"), capture_output=True, text=True, check=True
+    )
+    document = json.loads(done.stdout)
+    assert document["verdict"] == "ok"
+    assert all(own["satisfied"] == own["claimed"] > 0 for own in document["tasks"].values())
+
+
+@pytest.mark.parametrize("name", ["recorder", "carrier"])
+def test_a_killed_process_ends_the_run(tmp_path: Path, name: str) -> None:
+    """SIGKILL of recorder or agent: exit status 3, its name, a result, and a bag that is whole."""
+    folder = tmp_path / "run"
+    role = name if name == "recorder" else f"--name {name}"
+
+    def kill(_: "subprocess.Popen[str]") -> None:
+        (pid,) = processes_of(folder, role)
+        os.kill(pid, signal.SIGKILL)
+
+    status, errors = break_run(folder, kill)
+    assert status == 3
+    assert f"tlcomm: error: {name}: killed by SIGKILL" in errors
+    result = json.loads((folder / "result.json").read_text("utf-8"))
+    assert result["verdict"] == [f"{name}: killed by SIGKILL"]
+    assert result["communication"]["missed"] == []
+    assert_readable(folder)
+    assert processes_of(folder) == []
+
+
+def test_an_interrupted_run_keeps_what_it_has(tmp_path: Path) -> None:
+    """Ctrl-C: exit status 130, and result and bag of all that was recorded."""
+    folder = tmp_path / "run"
+    status, _ = break_run(folder, lambda process: process.send_signal(signal.SIGINT))
+    assert status == 130
+    assert json.loads((folder / "result.json").read_text("utf-8"))["verdict"] == ["interrupted"]
+    assert_readable(folder)
+    assert processes_of(folder) == []
+
+
+def test_a_full_disk_ends_the_run(tmp_path: Path) -> None:
+    """When the bag can't grow any more the run stops, says so, and the bag stays whole."""
+    folder = tmp_path / "run"
+
+    def limit(_: "subprocess.Popen[str]") -> None:
+        (pid,) = processes_of(folder, "recorder")
+        resource.prlimit(pid, resource.RLIMIT_FSIZE, (100_000, 100_000))
+
+    status, errors = break_run(folder, limit)
+    assert status == 3
+    assert f"tlcomm: error: recorder: can't write '{folder}/bag' any more: File too large" in errors
+    assert_readable(folder)

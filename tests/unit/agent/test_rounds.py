@@ -1,0 +1,61 @@
+"""Round problems from offers."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from support.hall import hall, make_member
+from tlcomm_core.agent.rounds import MeetingRounds
+from tlcomm_core.game.offer import MemberOffer, next_stops
+from tlcomm_core.geometry import Pose
+from tlcomm_core.protocol.team import Team
+from tlcomm_core.workspace.atlas import Atlas
+
+TEAM = Team(frozenset({"one", "two"}), 1.0, 0.96, 30.0, 3.0)
+ATLAS = Atlas(hall(2).grid)
+ROUNDS = MeetingRounds(ATLAS, TEAM, 0.0)
+
+
+@pytest.fixture(scope="module")
+def offer() -> MemberOffer:
+    """Return what the hall's first agent offers at the start."""
+    settings = make_member("one", 2)._brain._settings
+    pose = Pose(2.75, 0.75, 0.0)
+    stops = next_stops(settings.plan, 0, pose, settings.travel, 57.0)
+    return MemberOffer("one", 0.0, pose.x_m, pose.y_m, pose.yaw_rad, 1.0, 1.5, stops)
+
+
+def test_a_problem_has_the_window_and_the_planned_range(offer: MemberOffer) -> None:
+    """Places are planned with the range that tolerances leave."""
+    problem = ROUNDS.problem(2, 33.0, [offer, replace(offer, agent="two")])
+    assert (problem.round, problem.window_s) == (2, (60.0, 90.0))
+    assert problem.range_m == 0.96
+    assert problem.agents == ("one", "two")
+    np.testing.assert_array_equal(problem.locations_m, ATLAS.grid.locations_m)
+
+
+def test_each_members_own_speeds_count(offer: MemberOffer) -> None:
+    """Who drives slower reaches a place later, from the same stops."""
+    slow = replace(offer, agent="two", linear_mps=0.5)
+    fast_table, slow_table = ROUNDS.problem(1, 3.0, [offer, slow]).candidates
+    rows = min(len(fast_table.arrival_s), len(slow_table.arrival_s))
+    both = np.isfinite(fast_table.arrival_s[:rows]) & np.isfinite(slow_table.arrival_s[:rows])
+    assert (fast_table.arrival_s[:rows][both] <= slow_table.arrival_s[:rows][both] + 1e-9).all()
+    assert (fast_table.arrival_s[:rows][both] < slow_table.arrival_s[:rows][both] - 0.5).any()
+
+
+def test_all_members_are_reckoned_with_the_allowance(offer: MemberOffer) -> None:
+    """In free running arrivals are later than in lock step."""
+    allowing = MeetingRounds(ATLAS, TEAM, 0.06)
+    (exact,) = ROUNDS.problem(1, 3.0, [offer]).candidates
+    (later,) = allowing.problem(1, 3.0, [offer]).candidates
+    assert later.arrival_s[0].min() >= exact.arrival_s[0].min()
+    assert np.nanmean(later.arrival_s[0] - exact.arrival_s[0]) > 0.05
+
+
+def test_an_unsound_offer_is_recognised(offer: MemberOffer) -> None:
+    """What a peer says needn't be possible."""
+    assert ROUNDS.is_sound(offer)
+    assert not ROUNDS.is_sound(replace(offer, x_m=-5.0))
+    assert not ROUNDS.is_sound(replace(offer, linear_mps=0.0))
