@@ -50,7 +50,7 @@ def test_unknown_wall_time_is_null() -> None:
 def test_windows_are_counted_with_the_one_satisfied_early() -> None:
     """A window counts once D_c was seen in it, though it isn't over."""
     links = document(hand_made_records())["communication"]
-    assert links == {"windows": 3, "satisfied": 3, "missed": []}
+    assert links == {"windows": 3, "satisfied": 3, "missed": 0, "missed_rounds": []}
 
 
 def test_a_missed_window_is_named() -> None:
@@ -61,7 +61,12 @@ def test_a_missed_window_is_named() -> None:
         Connectivity(3_000_000_000, (), False),
     ]
     result = document(records)
-    assert result["communication"] == {"windows": 2, "satisfied": 1, "missed": [1]}
+    assert result["communication"] == {
+        "windows": 2,
+        "satisfied": 1,
+        "missed": 1,
+        "missed_rounds": [1],
+    }
     assert result["verdict"] == ["window 1 missed: connected for 0.000 s at most, not 2 s"]
 
 

@@ -281,7 +281,7 @@ RESULT = {
     "wall_s": None,
     "realtime_factor": None,
     "rounds": [],
-    "communication": {"windows": 2, "satisfied": 1, "missed": [1]},
+    "communication": {"windows": 2, "satisfied": 1, "missed": 1},
     "agents": {
         "one": {"tasks_satisfied": 0, "makespan_s": None, "distance_m": 0.0, "messages_sent": None}
     },

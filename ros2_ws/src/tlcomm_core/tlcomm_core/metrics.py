@@ -106,7 +106,8 @@ def result_document(scenario: Scenario, records: RunRecords, facts: RunFacts) ->
         "communication": {
             "windows": len(windows),
             "satisfied": sum(window.satisfied for window in windows),
-            "missed": [window.round for window in windows if not window.satisfied],
+            "missed": sum(not window.satisfied for window in windows),
+            "missed_rounds": [window.round for window in windows if not window.satisfied],
         },
         "agents": {name: _agent(name, records) for name in scenario.agents},
         "verdict": failures or "ok",

@@ -199,11 +199,11 @@ def act_nowhere(records: RunRecords) -> None:
         (move_meeting, ["round 1: t_c is 10.500000 s, not 10.000000 s"]),
         (
             claim_more,
-            ["west: task claimed satisfied 3 times, by its actions it was 2 times"],
+            ["west: task claimed satisfied 3 times, by its steps it was 2 times"],
         ),
         (
             claim_earlier,
-            ["west: task claimed satisfied at 4.500 s, by its actions it was at 5.000 s"],
+            ["west: task claimed satisfied at 4.500 s, by its steps it was at 5.000 s"],
         ),
         (
             act_elsewhere,
@@ -264,13 +264,20 @@ def test_tasks_of_other_forms_are_not_recomputed() -> None:
     }
 
 
-def test_visits_are_not_recomputed() -> None:
-    """Mere visits leave no events, so tasks that need them aren't recomputed."""
+def test_a_visit_is_a_step_of_the_word() -> None:
+    """A region that was visited without acting counts where the task asks for no more."""
     scenario = hand_made_scenario()
-    agent = scenario.agents["west"].model_copy(update={"task": "G F left"})
+    agent = scenario.agents["west"].model_copy(update={"task": "G F (left & F (left & !pick))"})
     changed = scenario.model_copy(update={"agents": {**scenario.agents, "west": agent}})
-    run = RecordedRun(hand_made_records(), AGENTS, 25 * S, {}, "")
-    assert audit_run(changed, run).document()["tasks"]["west"]["satisfied"] is None
+    records = hand_made_records()
+    run = RecordedRun(records, AGENTS, 25 * S, {}, "")
+    assert audit_run(changed, run).document()["tasks"]["west"]["satisfied"] == 0
+    picked = next(r for r in records.tasks if r.event.kind is TaskEventKind.ACTION_FINISHED)
+    visit = task(
+        picked.stamp_ns * 1e-9, "west", TaskEventKind.REGION_VISITED, region="left", plan_index=1
+    )
+    records.tasks.insert(records.tasks.index(picked) + 1, visit)
+    assert audit_run(changed, run).document()["tasks"]["west"]["satisfied"] == 1
 
 
 def test_a_note_of_damage_is_kept() -> None:

@@ -9,7 +9,6 @@ from tlcomm_tools.audit.formula import (
     Letter,
     Tree,
     count_fulfilled,
-    needs_only_actions,
     read_formula,
     recurring_part,
 )
@@ -143,21 +142,3 @@ def test_fulfilments_follow_the_definition(tree: Tree, letters: list[Letter]) ->
             wanted.append(end)
             start = end + 1
     assert count_fulfilled(tree, letters) == wanted
-
-
-@pytest.mark.parametrize(
-    ("text", "answer"),
-    [
-        ("(p & a) & F (r & b)", True),
-        ("a", True),
-        ("p", False),
-        ("p & F a", False),
-        ("!p U a", False),
-        ("F (a | p)", False),
-        ("a & X b", False),
-        ("true", False),
-    ],
-)
-def test_which_tasks_need_only_actions(text: str, answer: bool) -> None:
-    """A task is decided by its actions alone if nothing in it can be true without one."""
-    assert needs_only_actions(read_formula(text), frozenset("ab")) is answer

@@ -67,7 +67,7 @@ def test_environment_keeps_processes_on_this_machine(tmp_path: Path) -> None:
     assert environment["ROS_DOMAIN_ID"] == "42"
     assert environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"
     assert environment["FASTDDS_BUILTIN_TRANSPORTS"] == "UDPv4"
-    assert environment["ROS_LOG_DIR"] == str(tmp_path)
+    assert environment["ROS_LOG_DIR"] == str(tmp_path / "ros")
 
 
 def test_too_many_processes_for_local_discovery(tmp_path: Path) -> None:

@@ -36,6 +36,7 @@ class TaskEventKind(IntEnum):
     TASK_SATISFIED = 6
     ROUND_AGREED = 7
     FAULT = 8
+    REGION_VISITED = 9
 
 
 @dataclass(frozen=True, slots=True)

@@ -287,9 +287,9 @@ class Brain:
         if not self._is_due(acting.until_s, now_s):
             return []
         self._done += 1
-        actions: list[Action] = []
-        if acting.step.action is not None:
-            actions.append(self._report(TaskEventKind.ACTION_FINISHED, acting.step))
+        has_acted = acting.step.action is not None
+        kind = TaskEventKind.ACTION_FINISHED if has_acted else TaskEventKind.REGION_VISITED
+        actions: list[Action] = [self._report(kind, acting.step)]
         if acting.step.satisfies:
             actions.append(self._report(TaskEventKind.TASK_SATISFIED, acting.step))
         return [*actions, *self._set_out(now_s)]

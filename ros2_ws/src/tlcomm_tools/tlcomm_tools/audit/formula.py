@@ -1,9 +1,8 @@
 """Formulas read and evaluated on finite words, independently of the planner's own.
 
-``read_formula``        text to a tree
-``recurring_part``      φ of a formula □◇φ
-``needs_only_actions``  whether φ is decided by what was done, wherever one was meanwhile
-``count_fulfilled``     when φ, begun anew each time, was fulfilled in a word
+``read_formula``     text to a tree
+``recurring_part``   φ of a formula □◇φ
+``count_fulfilled``  when φ, begun anew each time, was fulfilled in a word
 
 Trees are tuples: an operator and its operands, or ("atom", name).
 """
@@ -18,7 +17,6 @@ __all__ = [
     "Letter",
     "Tree",
     "count_fulfilled",
-    "needs_only_actions",
     "read_formula",
     "recurring_part",
 ]
@@ -27,13 +25,12 @@ Letter = frozenset[str]
 """The atoms that are true."""
 Tree = tuple[Any, ...]
 
-_TOKEN = re.compile(r"\s*(<->|->|<>|\[\]|&&?|\|\|?|[!~()]|[A-Za-z0-9_]+|$)")
+_TOKEN = re.compile(r"\s*(<->|->|<>|\[\]|&&?|\|\|?|[!~()]|[FGX](?=[FGX]+\b)|[A-Za-z0-9_]+|$)")
 _SAME = {"&&": "&", "||": "|", "<>": "F", "[]": "G", "~": "!", "not": "!", "V": "R"}
 _UNARY = {"!", "X", "F", "G"}
 # From the loosest to the tightest; all but & and | are right-associative, and those associative.
 _LEVELS = (("->", "<->"), ("|",), ("&",), ("U", "R", "W", "M"))
 _DUAL = {"&": "|", "|": "&", "U": "R", "R": "U", "W": "M", "M": "W", "F": "G", "G": "F", "X": "X"}
-_PROPOSITIONAL = {"!", "true", "false", "&", "|"}
 _CO_SAFE = {"atom", "!", "true", "false", "&", "|", "X", "F", "U", "M"}
 
 
@@ -124,42 +121,6 @@ def _is_co_safe(tree: Tree) -> bool:
     if operator == "atom":
         return True
     return operator in _CO_SAFE and all(_is_co_safe(operand) for operand in operands)
-
-
-def needs_only_actions(tree: Tree, actions: Letter) -> bool:
-    """Whether letters without any action can't matter to a co-safe formula.
-
-    Args:
-        tree: the formula.
-        actions: names of actions; all other atoms are regions.
-    """
-    operator, *operands = tree
-    if _is_propositional(tree):
-        return not _can_hold_without(tree, actions)
-    return operator != "X" and all(needs_only_actions(operand, actions) for operand in operands)
-
-
-def _is_propositional(tree: Tree) -> bool:
-    operator, *operands = tree
-    if operator == "atom":
-        return True
-    return operator in _PROPOSITIONAL and all(map(_is_propositional, operands))
-
-
-def _can_hold_without(tree: Tree, actions: Letter) -> bool:
-    """Whether some letter without any of the actions could make the formula true.
-
-    Regions are taken for free of each other, so the answer errs on the side of yes.
-    """
-    operator, *operands = tree
-    if operator == "atom":
-        return operands[0] not in actions
-    if operator in {"true", "!"}:
-        return True
-    if operator == "false":
-        return False
-    combine = all if operator == "&" else any
-    return combine(_can_hold_without(operand, actions) for operand in operands)
 
 
 def count_fulfilled(part: Tree, word: Sequence[Letter]) -> list[int]:

@@ -18,7 +18,6 @@ from tlcomm_tools.audit.formula import (
     Letter,
     Tree,
     count_fulfilled,
-    needs_only_actions,
     read_formula,
     recurring_part,
 )
@@ -30,6 +29,7 @@ __all__ = ["TaskFinding", "audit_task"]
 _PLACE_SLACK_M = 1e-6
 _TIME_SLACK_S = 1e-6
 _SPARE_WINDOWS = 2
+_STEPS = (TaskEventKind.ACTION_FINISHED, TaskEventKind.REGION_VISITED)
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,8 +39,8 @@ class TaskFinding:
     Attributes:
         agent: whose.
         claimed: how often it said that its task was satisfied.
-        satisfied: how often it was, or ``None`` for tasks that can't be recomputed from what was
-            done: all but □◇φ with co-safe φ that is true by actions alone.
+        satisfied: how often it was, or ``None`` for tasks of which no finite part tells it: all
+            but □◇φ with co-safe φ.
         longest_gap_s: the longest time without a satisfaction, or ``None`` likewise.
         violations: one line each.
     """
@@ -61,8 +61,8 @@ def audit_task(
 ) -> TaskFinding:
     """Recompute one agent's satisfactions.
 
-    The word that its task is evaluated on has a letter per finished action: the action and the
-    regions that it was done in.
+    The word that its task is evaluated on has a letter for where it started, and one for each
+    finished action and each visit: the action, if any, and the regions that it was in then.
 
     Args:
         scenario: tasks, regions and durations.
@@ -71,7 +71,7 @@ def audit_task(
         track: where it was.
         end_s: end of the run.
     """
-    finished = [record for record in events if record.event.kind is TaskEventKind.ACTION_FINISHED]
+    steps = [record for record in events if record.event.kind in _STEPS]
     claimed_s = [
         record.stamp_ns * 1e-9
         for record in events
@@ -79,10 +79,11 @@ def audit_task(
     ]
     violations = [*_misplaced(scenario, agent, events, track), *_hasty(scenario, agent, events)]
     part = recurring_part(read_formula(scenario.agents[agent].task))
-    if part is None or not needs_only_actions(part, frozenset(scenario.actions_of(agent))):
+    if part is None:
         return TaskFinding(agent, len(claimed_s), None, None, tuple(violations))
-    word = [_letter(scenario, record, track) for record in finished]
-    satisfied_s = [finished[index].stamp_ns * 1e-9 for index in count_fulfilled(part, word)]
+    word = [_initial_letter(scenario, agent), *(_letter(scenario, step, track) for step in steps)]
+    # What holds where it started needs no step, and is claimed by none.
+    satisfied_s = [steps[end - 1].stamp_ns * 1e-9 for end in count_fulfilled(part, word) if end]
     violations += _unfounded(agent, claimed_s, satisfied_s)
     gap_s, gap_from_s = _longest_gap([0.0, *satisfied_s, end_s])
     limit_s = (_action_count(part, scenario, agent) + _SPARE_WINDOWS) * (
@@ -95,17 +96,26 @@ def audit_task(
     return TaskFinding(agent, len(claimed_s), len(satisfied_s), gap_s, tuple(violations))
 
 
+def _initial_letter(scenario: Scenario, agent: str) -> Letter:
+    x_m, y_m, _ = scenario.agents[agent].start
+    return _regions_at(scenario, x_m, y_m)
+
+
 def _letter(scenario: Scenario, record: TaskRecord, track: Track | None) -> Letter:
     event = record.event
-    regions = {event.region}
-    if track is not None:
-        x_m, y_m = track.at(np.array([record.stamp_ns * 1e-9]))[0]
-        regions.update(
-            name
-            for name, region in scenario.workspace.regions.items()
-            if math.dist(region.at_m, (x_m, y_m)) <= region.radius_m
-        )
-    return frozenset({event.action, *regions} - {""})
+    letter = frozenset({event.action, event.region} - {""})
+    if track is None:
+        return letter
+    x_m, y_m = track.at(np.array([record.stamp_ns * 1e-9]))[0]
+    return letter | _regions_at(scenario, x_m, y_m)
+
+
+def _regions_at(scenario: Scenario, x_m: float, y_m: float) -> Letter:
+    return frozenset(
+        name
+        for name, region in scenario.workspace.regions.items()
+        if math.dist(region.at_m, (x_m, y_m)) <= region.radius_m
+    )
 
 
 def _misplaced(
@@ -113,7 +123,7 @@ def _misplaced(
 ) -> Iterator[str]:
     """Say which actions were not done in the regions that they claim."""
     slack_m = scenario.drive_of(agent).position_tolerance_m + _PLACE_SLACK_M
-    kinds = (TaskEventKind.ACTION_STARTED, TaskEventKind.ACTION_FINISHED)
+    kinds = (TaskEventKind.ACTION_STARTED, *_STEPS)
     for record in events:
         event = record.event
         if track is None or event.kind not in kinds or not event.region:
@@ -158,13 +168,13 @@ def _unfounded(
     for claim_s, truth_s in zip(claimed_s, satisfied_s, strict=False):
         if abs(claim_s - truth_s) > _TIME_SLACK_S:
             yield (
-                f"{agent}: task claimed satisfied at {claim_s:.3f} s, by its actions it was "
+                f"{agent}: task claimed satisfied at {claim_s:.3f} s, by its steps it was "
                 f"at {truth_s:.3f} s"
             )
             return
     if len(claimed_s) != len(satisfied_s):
         yield (
-            f"{agent}: task claimed satisfied {len(claimed_s)} times, by its actions it was "
+            f"{agent}: task claimed satisfied {len(claimed_s)} times, by its steps it was "
             f"{len(satisfied_s)} times"
         )
 

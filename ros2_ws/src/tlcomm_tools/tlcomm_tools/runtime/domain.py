@@ -59,7 +59,7 @@ def process_environment(
     Args:
         inherited: usually ``os.environ``; what it says of the discovery range is respected.
         domain: the ROS_DOMAIN_ID.
-        log_folder: where rcl's own logs go.
+        log_folder: of the run; rcl's own logs go to ``ros`` in it.
         processes: how many there will be.
 
     Raises:
@@ -76,7 +76,7 @@ def process_environment(
         **inherited,
         "ROS_DOMAIN_ID": str(domain),
         "ROS_AUTOMATIC_DISCOVERY_RANGE": discovery,
-        "ROS_LOG_DIR": str(log_folder),
+        "ROS_LOG_DIR": str(log_folder / "ros"),
         "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
         # No shared-memory transport: a killed process then leaves nothing in /dev/shm.
         "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
