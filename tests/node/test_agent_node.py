@@ -86,12 +86,26 @@ class Surroundings:
 
     def show(self) -> None:
         """Show the agent where it is and that all are in range."""
+        self.show_odometry()
+        self.show_connectivity()
+
+    def show_odometry(self) -> None:
+        """Show the agent that it rests at its start."""
         start = Pose(*SCENARIO.agents[OWN].start).as_transmitted()
         self.odometry_pub.publish(encode_odometry(Odometry(0, OWN, start, 0.0, 0.0)))
+
+    def show_connectivity(self) -> None:
+        """Show that all are in range of all."""
         edges = ((0, 1), (0, 2), (1, 2))
         self.connectivity_pub.publish(
             encode_connectivity(Connectivity(0, edges, connected=True), 1.0, NAMES)
         )
+
+
+def response(**fields: object) -> msg.BestResponse:
+    """Return a well-formed best response of the peer's, some fields of it changed."""
+    strategy = msg.Strategy(agent=PEER)
+    return msg.BestResponse(**{"sender": PEER, "candidate": PEER, "strategy": strategy, **fields})
 
 
 @pytest.fixture
@@ -104,15 +118,21 @@ def surroundings(context: Context) -> Iterator[Surroundings]:
     own.node.destroy_node()
 
 
-def test_tick_waits_for_all_that_it_counts(surroundings: Surroundings) -> None:
+@pytest.mark.parametrize("last", ["odometry", "connectivity", "message"])
+def test_tick_waits_for_all_that_it_counts(surroundings: Surroundings, last: str) -> None:
     """A tick isn't answered before everything has come that it counts; then at once, and once."""
+    show = {
+        "odometry": surroundings.show_odometry,
+        "connectivity": surroundings.show_connectivity,
+        "message": lambda: surroundings.response_pub.publish(response()),
+    }
     surroundings.tick(1, (1, 1, 1))
+    for name in show:
+        if name != last:
+            show[name]()
     surroundings.settle()
     assert not surroundings.answered(1)
-    surroundings.show()
-    surroundings.settle()
-    assert not surroundings.answered(1)
-    surroundings.response_pub.publish(msg.BestResponse(sender=PEER))
+    show[last]()
     surroundings.until(lambda: surroundings.answered(1))
     surroundings.settle()
     (answer,) = [answer for answer in surroundings.answers if answer.sequence == 1]
@@ -132,28 +152,29 @@ def test_sim_is_told_who_is_missing(surroundings: Surroundings) -> None:
 
 
 @pytest.mark.parametrize(
-    "message",
+    ("message", "reason"),
     [
-        msg.BestResponse(sender=PEER, change=float("nan")),
-        msg.BestResponse(sender=""),
-        msg.BestResponse(sender=NAMES[2], candidate="c"),
-        msg.BestResponse(),
-        b"",
-        b"\0\1\0\0",
-        b"\0\1\0\0" + b"\xff" * 40,
+        (response(change=float("nan")), "change: nan"),
+        (response(sender=""), "sender: "),
+        (response(sender=NAMES[2]), f"in the name of '{NAMES[2]}'"),
+        (b"", "not a BestResponse"),
+        (b"\0\1\0\0", "not a BestResponse"),
+        (b"\0\1\0\0" + b"\xff" * 40, "not a BestResponse"),
     ],
-    ids=["nan", "nameless", "in another's name", "empty", "nothing", "truncated", "garbage"],
+    ids=["nan", "nameless", "in another's name", "nothing", "truncated", "garbage"],
 )
 def test_malformed_messages_are_counted_and_ignored(
-    surroundings: Surroundings, message: object
+    surroundings: Surroundings, message: object, reason: str
 ) -> None:
     """Whatever a peer's topic carries, it counts as received, is noted, and harms nobody."""
     surroundings.response_pub.publish(message)
     surroundings.show()
     surroundings.tick(1, (1, 1, 1))
     surroundings.until(lambda: surroundings.answered(1))
-    assert sum(surroundings.agent.ignored.values()) == 1
-    assert all(PEER in reason for reason in surroundings.agent.ignored)
+    ((noted, count),) = surroundings.agent.ignored.items()
+    assert count == 1
+    assert noted.startswith(f"{PEER}: ")
+    assert reason in noted
 
 
 def test_malformed_surroundings_are_counted_and_ignored(surroundings: Surroundings) -> None:

@@ -6,12 +6,13 @@ import subprocess
 import sys
 
 import pytest
-from rclpy.clock import Clock
+from rclpy.clock import Clock, ROSClock
 from rclpy.clock_type import ClockType
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.time import Time
 from std_msgs.msg import UInt64
 
 from tlcomm_tools.runtime import spin as module
@@ -89,6 +90,44 @@ def test_shutdown_ends_it(context: Context, way: Spin) -> None:
         way(node, lambda: False)
 
 
+@pytest.mark.parametrize("way", SPINS)
+def test_failure_amid_a_shutdown_is_the_shutdown(context: Context, way: Spin) -> None:
+    """What rclpy raises because its context has gone meanwhile is no error of anybody's."""
+    node = node_of(context)
+    publisher = node.create_publisher(UInt64, "number", 10)
+
+    def publish_late() -> None:
+        context.try_shutdown()
+        publisher.publish(UInt64())
+        raise RuntimeError("the publisher's context is invalid")
+
+    node.create_timer(0.01, publish_late, clock=STEADY)
+    with pytest.raises(ExternalShutdownException):
+        way(node, lambda: False)
+
+
+@pytest.mark.parametrize("way", SPINS)
+def test_timers_keep_simulated_time(context: Context, way: Spin) -> None:
+    """A timer on a simulated clock runs once when its time has come, and not again by itself."""
+    node = node_of(context)
+    clock = ROSClock()
+    clock._set_ros_time_is_active(True)
+    clock.set_ros_time_override(Time(seconds=1, clock_type=ClockType.ROS_TIME))
+    wall: list[int] = []
+    simulated: list[int] = []
+
+    def pass_time() -> None:
+        wall.append(len(simulated))
+        if len(wall) == 10:
+            clock.set_ros_time_override(Time(seconds=12, clock_type=ClockType.ROS_TIME))
+
+    node.create_timer(10.0, lambda: simulated.append(len(wall)), clock=clock)
+    node.create_timer(0.01, pass_time, clock=STEADY)
+    way(node, lambda: len(wall) == 20)
+    assert len(simulated) == 1
+    assert simulated[0] >= 10
+
+
 def test_way_is_chosen(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
     """The wait set serves nodes without services, as long as rclpy has one."""
     assert module._can_spin_fast(node_of(context))
@@ -104,6 +143,7 @@ import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.time import Time
 from tlcomm_tools.runtime import spin
 signal.signal(signal.SIGINT, lambda *_: None)
 rclpy.init(args=[])

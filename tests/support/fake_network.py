@@ -22,6 +22,9 @@ from tlcomm_core.protocol.team import Team
 
 __all__ = ["Entry", "FakeNetwork", "Faults"]
 
+# Many times what any team here needs: messages without end must not hang a test.
+_MOST_ENTRIES = 200_000
+
 
 @dataclass(frozen=True, slots=True)
 class Faults:
@@ -109,6 +112,7 @@ class FakeNetwork:
 
     def step(self) -> None:
         """Jump to the next event, and do all that is due at that instant."""
+        assert len(self.transcript) < _MOST_ENTRIES, "a storm of messages"
         self.now_s = self.next_s
         due = {name for name, agent in self.agents.items() if agent.next_need_s <= self.now_s}
         while self._queue and self._queue[0][0] <= self.now_s:

@@ -203,8 +203,11 @@ def test_once_settled_it_answers_who_still_repeats(meeting: Meeting) -> None:
     [
         ([(0.0, 0.0)], ((), 1)),
         ([(0.0, 0.0), (0.5, 0.0)], (((0, 1),), 1)),
-        # Exactly the planned range apart, with rounding.
-        ([(0.0, 0.0), (0.1 + 0.2 + 0.66, 0.0), (1.92, 0.0)], (((0, 1), (1, 2)), 2)),
+        # Exactly the planned range apart, one pair more by rounding.
+        (
+            [(0.0, 0.0), (0.96, 0.0), (0.96, 0.96), (0.0, 0.1 + 0.2 + 0.66)],
+            (((0, 1), (0, 3), (1, 2), (2, 3)), 2),
+        ),
         # A third pair within R but beyond what is planned with isn't relied on.
         ([(0.0, 0.0), (0.5, 0.0), (0.98, 0.0)], (((0, 1), (1, 2)), 2)),
         # The team isn't connected by sure links: one more is relied on, the longest isn't.

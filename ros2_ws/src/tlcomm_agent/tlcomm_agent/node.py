@@ -101,7 +101,7 @@ class AgentNode(Node):
         pacing = Pacing.EVENT if self.config.pace.is_lockstep else Pacing.PERIODIC
         site = Site.from_scenario(self.config.scenario)
         self._member: Final = create(self.config.name, site, pacing, Atlas(site.grid))
-        self._timed: Final = TimedMember(self._member, time.perf_counter, time.time)
+        self._timed: Final = TimedMember(self._member, time.thread_time, time.time)
         self._odometry_count = 0
         self._connectivity_count = 0
         latency_s = self.config.scenario.communication.hop_latency_s

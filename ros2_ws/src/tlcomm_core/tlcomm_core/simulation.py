@@ -87,7 +87,7 @@ class _Harness:
             name: create(name, mission.site, Pacing.EVENT, atlas) for name in scenario.agents
         }
         self._timed = {
-            name: TimedMember(member, time.perf_counter, time.time)
+            name: TimedMember(member, time.thread_time, time.time)
             for name, member in self._members.items()
         }
         self.lockstep = LockStep(

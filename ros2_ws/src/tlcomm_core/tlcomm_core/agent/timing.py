@@ -23,7 +23,8 @@ class RoundTiming:
     Attributes:
         agent: whose.
         round: the round agreed on.
-        solve_wall_s: its own computing, from the tables to the equilibrium.
+        solve_wall_s: its own computing, from the tables to the equilibrium: what it takes by the
+            wall clock of a computer that it needn't share.
         offered_wall_s: when it first offered its plan (seconds of the wall clock's epoch).
         agreed_wall_s: when it held the strategy as agreed (the same clock).
     """
@@ -53,7 +54,8 @@ class TimedMember:
 
         Args:
             member: whose steps.
-            stopwatch_s: a steady clock of high resolution, such as ``time.perf_counter``.
+            stopwatch_s: a clock of this agent's own computing, such as ``time.thread_time``:
+                agents that share a computer would otherwise count each other's.
             wall_s: a clock that all processes share, such as ``time.time``.
         """
         self.member = member
