@@ -127,9 +127,9 @@ def test_tick_waits_for_all_that_it_counts(surroundings: Surroundings, last: str
         "message": lambda: surroundings.response_pub.publish(response()),
     }
     surroundings.tick(1, (1, 1, 1))
-    for name in show:
+    for name, show_it in show.items():
         if name != last:
-            show[name]()
+            show_it()
     surroundings.settle()
     assert not surroundings.answered(1)
     show[last]()

@@ -107,7 +107,7 @@ def add_mission_arguments(parser: argparse.ArgumentParser) -> None:
     end = parser.add_mutually_exclusive_group()
     end.add_argument(
         "--rounds",
-        type=positive_int,
+        type=not_negative_int,
         metavar="N",
         help=f"run until D_c after the meeting of round N (default {_DEFAULT_ROUNDS})",
     )
@@ -150,7 +150,7 @@ def mission_end(options: argparse.Namespace) -> tuple[int | None, float | None]:
     """Return the rounds and the time to run to; one of them is ``None``."""
     if options.until is not None:
         return None, options.until
-    return options.rounds or _DEFAULT_ROUNDS, None
+    return _DEFAULT_ROUNDS if options.rounds is None else options.rounds, None
 
 
 def print_json(document: Mapping[str, Any]) -> None:
