@@ -121,6 +121,7 @@ class FakeNetwork:
                 due.add(name)
         for name in sorted(due):
             self._record(name, self.agents[name].proceed(self.now_s))
+            assert self.agents[name].next_need_s > self.now_s, "needs the instant that just was"
 
     def leave(self, name: str) -> None:
         """Let an agent go: it neither speaks nor hears any more."""
