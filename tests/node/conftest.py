@@ -1,12 +1,17 @@
 """Nodes under test: a ROS domain of their own, and a context per test."""
 
 import os
+import tempfile
 import warnings
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
-from tlcomm_tools.runtime.domain import claim_domain
+from tlcomm_tools.runtime.domain import claim_domain, process_environment
+
+# Kept to this machine and out of shared memory, for all that is loaded from here on.
+os.environ.update(process_environment({}, 0, Path(tempfile.gettempdir()), 1))
 
 # The interfaces' generator imports a parser that the standard library warns of.
 with warnings.catch_warnings():
@@ -18,10 +23,7 @@ from rclpy.context import Context
 
 @pytest.fixture(scope="session")
 def domain() -> Iterator[int]:
-    """Hold a free ROS domain, kept to this machine and out of shared memory."""
-    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
-    os.environ["FASTDDS_BUILTIN_TRANSPORTS"] = "UDPv4"
-    os.environ["RMW_IMPLEMENTATION"] = "rmw_fastrtps_cpp"
+    """Hold a free ROS domain."""
     with claim_domain() as claimed:
         yield claimed
 

@@ -65,15 +65,29 @@ def test_environment_keeps_processes_on_this_machine(tmp_path: Path) -> None:
     environment = process_environment({"PATH": "/bin"}, 42, tmp_path, 10)
     assert environment["PATH"] == "/bin"
     assert environment["ROS_DOMAIN_ID"] == "42"
-    assert environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"
+    assert environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "SYSTEM_DEFAULT"
+    profiles = Path(environment["FASTRTPS_DEFAULT_PROFILES_FILE"]).read_text(encoding="utf-8")
+    assert "<address>127.0.0.1</address>" in profiles
     assert environment["FASTDDS_BUILTIN_TRANSPORTS"] == "UDPv4"
     assert environment["ROS_LOG_DIR"] == str(tmp_path / "ros")
 
 
-def test_too_many_processes_for_local_discovery(tmp_path: Path) -> None:
-    """More processes than local discovery carries are refused, unless the user widened it."""
+@pytest.mark.parametrize(
+    "chosen",
+    [
+        {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"},
+        {"FASTRTPS_DEFAULT_PROFILES_FILE": "/etc/fleet.xml"},
+    ],
+)
+def test_the_users_own_way_of_discovery_stays(tmp_path: Path, chosen: dict[str, str]) -> None:
+    """Who says how processes find each other is not overruled."""
+    environment = process_environment(chosen, 1, tmp_path, 31)
+    for variable in ("ROS_AUTOMATIC_DISCOVERY_RANGE", "FASTRTPS_DEFAULT_PROFILES_FILE"):
+        assert environment.get(variable) == chosen.get(variable)
+
+
+def test_too_many_processes_for_the_range_localhost(tmp_path: Path) -> None:
+    """More processes than ROS's own local discovery carries are refused, if that was chosen."""
     with pytest.raises(InputError, match="31 processes"):
-        process_environment({}, 1, tmp_path, 31)
-    wide = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}
-    environment = process_environment(wide, 1, tmp_path, 31)
-    assert environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "SUBNET"
+        process_environment({"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}, 1, tmp_path, 31)
+    process_environment({}, 1, tmp_path, 31)

@@ -2,7 +2,7 @@
 
 ``claim_domain``         a free ROS_DOMAIN_ID, held while the context lasts
 ``process_environment``  what a run's processes inherit
-``LOCALHOST_PROCESSES``  how many processes find each other without leaving this machine
+``LOCALHOST_PROCESSES``  how many processes find each other by ROS's own range LOCALHOST
 """
 
 import fcntl
@@ -23,6 +23,9 @@ _DOMAINS = range(1, 102)
 _PORT_BASE = 7400
 _PORTS_PER_DOMAIN = 250
 _PROBED_PORTS = 24
+_RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
+_PROFILES = "FASTRTPS_DEFAULT_PROFILES_FILE"
+_LOOPBACK = Path(__file__).with_name("loopback.xml")
 
 
 @contextmanager
@@ -56,29 +59,33 @@ def process_environment(
 ) -> dict[str, str]:
     """Return the environment for a run's processes.
 
+    Processes stay on this machine, unless the user's own environment says how they find each other:
+    by a discovery range or by profiles for the middleware.
+
     Args:
-        inherited: usually ``os.environ``; what it says of the discovery range is respected.
+        inherited: usually ``os.environ``.
         domain: the ROS_DOMAIN_ID.
         log_folder: of the run; rcl's own logs go to ``ros`` in it.
         processes: how many there will be.
 
     Raises:
-        InputError: they are too many for discovery on this machine only.
+        InputError: they are too many for the user's discovery range.
     """
-    discovery = inherited.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    if discovery == "LOCALHOST" and processes > LOCALHOST_PROCESSES:
+    if inherited.get(_RANGE) == "LOCALHOST" and processes > LOCALHOST_PROCESSES:
         message = (
             f"{processes} processes, but only {LOCALHOST_PROCESSES} find each other with "
-            "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST: set it to SUBNET"
+            f"{_RANGE}=LOCALHOST: unset it, or set it to SUBNET"
         )
         raise InputError(message)
+    is_chosen = _RANGE in inherited or _PROFILES in inherited
+    discovery = {} if is_chosen else {_RANGE: "SYSTEM_DEFAULT", _PROFILES: str(_LOOPBACK)}
     return {
         **inherited,
+        **discovery,
         "ROS_DOMAIN_ID": str(domain),
-        "ROS_AUTOMATIC_DISCOVERY_RANGE": discovery,
         "ROS_LOG_DIR": str(log_folder / "ros"),
         "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
-        # No shared-memory transport: a killed process then leaves nothing in /dev/shm.
+        # Without shared memory where the range allows it: a killed process would leave segments.
         "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
         # One process computes on one core; the others have agents of their own.
         "OPENBLAS_NUM_THREADS": "1",

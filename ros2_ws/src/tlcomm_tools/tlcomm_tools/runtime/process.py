@@ -1,10 +1,10 @@
 """A supervised process of a run: ``python -m tlcomm_tools.runtime.process {agent|sim|recorder}``.
 
-``main``           the process
-``agent_command``, ``sim_command``, ``recorder_command``  the command lines that start one
+``main``  the process
 """
 
 import argparse
+import signal
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -48,6 +48,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _fail(notifier: Notifier, error: TlcommError, status: int) -> int:
     print(error, file=sys.stderr)
+    # The supervisor interrupts everybody as soon as it hears of this; it is leaving already.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     notifier.tell(Failed(str(error), status))
     return status
 
