@@ -35,3 +35,12 @@ def test_one_value_larger_than_the_bound_is_held_alone() -> None:
     large = cache.get("b", lambda: np.zeros(100))
     assert len(cache) == 1
     assert cache.get("b", block) is large
+
+
+def test_it_tells_when_half_of_its_bytes_are_taken() -> None:
+    """Below half of the bound it isn't half full, at half it is."""
+    cache = BoundedCache[str, NDArray[np.float64]](256)
+    cache.get("a", block)
+    assert not cache.is_half_full
+    cache.get("b", block)
+    assert cache.is_half_full

@@ -140,3 +140,15 @@ def test_tables_are_read_only_and_searched_once() -> None:
     for array in (travel.time_to(3), reach.time_s, reach.heading):
         assert not array.flags.writeable
     assert np.shares_memory(travel.time_to(3), travel.time_to(3))
+
+
+def test_what_was_prepared_isnt_searched_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """From a prepared location every lattice heading is at hand."""
+    grid = Grid((3.0, 3.0), 0.5)
+    travel = TravelTimes(grid, Motion(1.0, 1.5))
+    travel.prepare([4])
+    monkeypatch.delattr(TravelTimes, "_search_out_of")
+    for heading_rad in HEADINGS_RAD:
+        assert travel.reach(pose_at(grid, 4, heading_rad)).time_s[4] == 0.0
+    with pytest.raises(AttributeError):
+        travel.reach(pose_at(grid, 5))

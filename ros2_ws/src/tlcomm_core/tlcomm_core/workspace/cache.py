@@ -36,6 +36,11 @@ class BoundedCache(Generic[_Key, _Value]):
         self._bytes = 0
         self._values: OrderedDict[_Key, _Value] = OrderedDict()
 
+    @property
+    def is_half_full(self) -> bool:
+        """Whether the values held take up half of the bytes allowed, or more."""
+        return 2 * self._bytes >= self._max_bytes
+
     def __len__(self) -> int:
         """Return the number of values held."""
         return len(self._values)

@@ -12,7 +12,7 @@ an agent drives exactly what it announced.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Final
@@ -190,6 +190,19 @@ class TravelTimes:
             LocalMisuseError: the pose isn't in a free cell.
         """
         return self._departure(pose).reach
+
+    def prepare(self, locations: Iterable[int]) -> None:
+        """Search beforehand what is likely to be asked for, as far as half of the cache.
+
+        Args:
+            locations: where agents will stand, with any lattice heading.
+        """
+        for location in locations:
+            x_m, y_m = self.grid.locations_m[location].tolist()
+            for heading_rad in HEADINGS_RAD:
+                if self._departures.is_half_full:
+                    return
+                self.reach(Pose(x_m, y_m, heading_rad))
 
     def leg_to(self, pose: Pose, target: int) -> Leg:
         """Return the shortest leg to a location along the tree of paths into it.
