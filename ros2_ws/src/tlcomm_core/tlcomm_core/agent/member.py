@@ -138,8 +138,8 @@ def create(name: str, site: Site, pacing: Pacing, atlas: Atlas) -> Member:
         period_s=communication.period_s,
         duration_s=communication.duration_s,
     )
-    # Members' plans lead through regions: with this done, the first round takes no longer than later
-    # ones.
+    # Members' plans lead through regions: with this done, the first round takes no longer than
+    # later ones.
     travel.prepare(site.region_location.values())
     brain = Brain(
         Settings(
