@@ -20,7 +20,12 @@ from tlcomm_core.protocol.negotiation import Phase, _meeting_graph
 def run(meeting: Meeting, **changes: float) -> FakeNetwork:
     """Run a meeting over a perfect network until all is silent."""
     network = FakeNetwork(
-        meeting.offers, meeting.round, meeting.team, meeting.rounds, Faults(**changes)
+        meeting.offers,
+        meeting.round,
+        meeting.team,
+        meeting.rounds,
+        Faults(**changes),
+        range_m=meeting.range_m,
     )
     network.run()
     return network

@@ -18,7 +18,15 @@ WITHIN_S = {1: 0.1, 2: 4.0, 3: 8.0, 4: 12.0, 5: 20.0, 6: 25.0, 7: 30.0, 8: 40.0,
 
 def network_of(meeting: Meeting, seed: int, faults: Faults = BAD) -> FakeNetwork:
     """Return a meeting on a bad network."""
-    return FakeNetwork(meeting.offers, meeting.round, meeting.team, meeting.rounds, faults, seed)
+    return FakeNetwork(
+        meeting.offers,
+        meeting.round,
+        meeting.team,
+        meeting.rounds,
+        faults,
+        seed,
+        range_m=meeting.range_m,
+    )
 
 
 def assert_safe(network: FakeNetwork) -> None:

@@ -57,6 +57,7 @@ class FakeNetwork:
         faults: of the network.
         seed: of its dice.
         is_cut: whether a message is lost on purpose, by time, receiver and message.
+        range_m: within which they hear each other.
         agents: the negotiations of those that are here, by name.
         agreed_s: when who held a strategy as agreed.
         transcript: all that was done, in order.
@@ -69,6 +70,7 @@ class FakeNetwork:
     faults: Faults = Faults()
     seed: int = 0
     is_cut: Callable[[float, str, Message], bool] = lambda _time_s, _receiver, _message: False
+    range_m: float = 1.0
     agents: dict[str, Negotiation] = field(default_factory=dict)
     agreed_s: dict[str, float] = field(default_factory=dict)
     transcript: list[Entry] = field(default_factory=list)
@@ -78,7 +80,7 @@ class FakeNetwork:
         self._rng = np.random.default_rng(self.seed)
         self._order = itertools.count()
         self._queue: list[tuple[float, int, str, Message | None]] = []
-        self._neighbours = _neighbours(self.offers, self.team.range_m)
+        self._neighbours = _neighbours(self.offers, self.range_m)
         self._offers: Mapping[str, MemberOffer] = {offer.agent: offer for offer in self.offers}
         self.now_s = -math.inf
         for offer in self.offers:

@@ -39,7 +39,6 @@ __all__ = [
     "sample_meeting",
 ]
 
-_RANGE_M = 1.0
 _PLANNED_M = 0.96
 _SPACING_M = 0.9
 
@@ -75,6 +74,7 @@ class Meeting:
     round: int
     team: Team
     rounds: SampleRounds | MeetingRounds
+    range_m: float = 1.0
 
     @property
     def problem(self) -> RoundProblem:
@@ -119,14 +119,12 @@ def _random_places(count: int, rng: np.random.Generator) -> tuple[Place, ...]:
 
 def make_team(
     count: int,
-    range_m: float = _RANGE_M,
     planned_range_m: float = _PLANNED_M,
     max_iterations: int = 1000,
 ) -> Team:
     """Return a team of ``agent_00``, ``agent_01``, …."""
     return Team(
         members=frozenset(f"agent_{index:02d}" for index in range(count)),
-        range_m=range_m,
         planned_range_m=planned_range_m,
         period_s=60.0,
         duration_s=5.0,
@@ -191,7 +189,7 @@ def plant_meeting(count: int, seed: int) -> Meeting:
     """Return a meeting on a real map: agents along a row of cells, each with a random plan."""
     rng = np.random.default_rng(seed)
     travel = _plant_travel()
-    team = make_team(count, range_m=0.6, planned_range_m=0.56)
+    team = make_team(count, planned_range_m=0.56)
     row = travel.grid.locations_m[-12:]
     offers = tuple(
         replace(offer, stops=_random_stops(travel, rng))
@@ -199,7 +197,7 @@ def plant_meeting(count: int, seed: int) -> Meeting:
             [tuple(place) for place in row[:count].tolist()], _arrivals_s(count, 60.0, 10.0, rng)
         )
     )
-    return Meeting(offers, 2, team, MeetingRounds(Atlas(travel.grid), team, 0.0))
+    return Meeting(offers, 2, team, MeetingRounds(Atlas(travel.grid), team, 0.0), 0.6)
 
 
 def _random_stops(travel: TravelTimes, rng: np.random.Generator) -> tuple[PlannedStop, ...]:

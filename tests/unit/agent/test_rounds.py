@@ -12,7 +12,7 @@ from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.workspace.atlas import Atlas
 
-TEAM = Team(frozenset({"one", "two"}), 1.0, 0.96, 30.0, 3.0)
+TEAM = Team(frozenset({"one", "two"}), 0.96, 30.0, 3.0)
 ATLAS = Atlas(hall(2).grid)
 ROUNDS = MeetingRounds(ATLAS, TEAM, 0.0)
 

@@ -57,13 +57,6 @@ def test_points_on_the_upper_border_belong_to_the_last_cell() -> None:
     assert grid.location_at(-0.0001, 0.0) is None
 
 
-def test_nearest_location_takes_the_lowest_of_equals() -> None:
-    """The middle of four centres is nearest to the first; no free cell gives None."""
-    assert Grid((1.0, 1.0), 0.5).nearest_location(0.5, 0.5) == 0
-    assert Grid((1.0, 1.0), 0.5).nearest_location(9.0, 9.0) == 3
-    assert Grid((1.0, 1.0), 0.5, [(0.0, 0.0, 1.0, 1.0)]).nearest_location(0.5, 0.5) is None
-
-
 def test_locations_within_a_disc_include_its_rim() -> None:
     """Centres exactly at the radius count, those beyond don't."""
     grid = Grid((2.5, 0.5), 0.5)

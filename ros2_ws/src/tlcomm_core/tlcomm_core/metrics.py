@@ -74,7 +74,7 @@ def result_document(scenario: Scenario, records: RunRecords, facts: RunFacts) ->
         records: what happened, each list in order of time.
         facts: the rest.
 
-    Source: equation (3) and Problem 2 for ξ, Φ and t_c.
+    Source: Section III-C for ξ, equation (5) for the additional times, equation (6) for Φ and t_c.
     """
     end_ns = nanoseconds(facts.sim_s)
     timing = scenario.communication

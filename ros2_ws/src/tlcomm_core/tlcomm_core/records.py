@@ -51,9 +51,9 @@ class RunRecords:
 def event_log(records: RunRecords) -> Iterator[str]:
     """Yield one JSON line per decision, ordered by time and agent.
 
-    Task events and held strategies are all that agents decide; equal logs mean equal runs. Within
-    one agent and instant the agent's own order is kept, so the log doesn't depend on the order in
-    which different agents' messages arrived at a recorder.
+    Task events and held strategies are all that agents decide; equal logs mean equal runs. At one
+    instant an agent's task events come before its strategies, each kind in the agent's own order:
+    the log doesn't depend on how the messages of different agents and topics arrived at a recorder.
     """
     rows = [
         (record.stamp_ns, record.agent, "task", asdict(record.event)) for record in records.tasks

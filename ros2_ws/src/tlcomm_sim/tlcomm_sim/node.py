@@ -25,7 +25,7 @@ from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock as ClockMessage
 
 from tlcomm_core.errors import InputError, TlcommError
-from tlcomm_core.units import nanoseconds
+from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.world.observation import Connectivity, Observation, Odometry
 from tlcomm_msgs import msg
 from tlcomm_sim import wire
@@ -200,7 +200,7 @@ class SimNode(Node):
             names = ", ".join(conductor.awaited)
             raise RunBrokenError(
                 f"no answer from {names} within {_ANSWER_DEADLINE_S:g} s "
-                f"at {conductor.time_ns * 1e-9:.3f} s of simulated time"
+                f"at {seconds(conductor.time_ns):.3f} s of simulated time"
             )
 
     def _perform(self, outputs: Sequence[Output]) -> None:

@@ -3,12 +3,12 @@
 ``pose_round``  one round's problem
 """
 
+from tlcomm_core.agent.member import team_of
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import InputError
 from tlcomm_core.game.problem import RoundProblem
 from tlcomm_core.mission import Mission
 from tlcomm_core.protocol.messages import Message, PlanOffer
-from tlcomm_core.protocol.team import Team
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate
 from tlcomm_core.workspace.atlas import Atlas
@@ -45,19 +45,8 @@ def pose_round(site: Site, number: int, seed: int) -> RoundProblem:
         raise InputError(
             f"round {number} is never planned: the meeting before it lacks {', '.join(absent)}"
         )
-    team = _team(site)
+    team = team_of(site)
     arrived_s = max(offer.arrival_s for offer in offers.values())
     departure_s = max(arrived_s, team.opens_s(number - 1)) + team.duration_s
     rounds = MeetingRounds(Atlas(site.grid), team, segment_allowance_s=0.0)
     return rounds.problem(number, departure_s, [offers[name] for name in sorted(offers)])
-
-
-def _team(site: Site) -> Team:
-    links = site.scenario.communication
-    return Team(
-        members=frozenset(site.scenario.agents),
-        range_m=links.range_m,
-        planned_range_m=site.planned_range_m,
-        period_s=links.period_s,
-        duration_s=links.duration_s,
-    )

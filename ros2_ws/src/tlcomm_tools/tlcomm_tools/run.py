@@ -19,6 +19,7 @@ from tlcomm_core.pace import Pace
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.loader import dumps
 from tlcomm_core.scenario.model import Scenario
+from tlcomm_core.units import seconds
 from tlcomm_tools.bag.reader import RecordedRun, read_run
 from tlcomm_tools.folder import RunFolder
 from tlcomm_tools.limit import time_limit_s
@@ -162,7 +163,7 @@ def _read_bag(folder: RunFolder) -> tuple[RecordedRun | None, Sequence[str]]:
 
 def _simulated_s(recorded: RecordedRun | None, outcome: RunOutcome, last: Progress) -> float:
     """Return the time at the end; of a run that broke, the last time recorded."""
-    recorded_s = 0.0 if recorded is None else recorded.end_ns * 1e-9
+    recorded_s = 0.0 if recorded is None else seconds(recorded.end_ns)
     return max(recorded_s, last.sim_s) if isinstance(outcome, RunFinished) else recorded_s
 
 

@@ -14,6 +14,7 @@ from tlcomm_core.agent.timing import RoundTiming
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose, yaw_from_quaternion
 from tlcomm_core.records import StrategyRecord, TaskRecord
+from tlcomm_core.units import NANOSECONDS_PER_SECOND, seconds
 from tlcomm_core.world.observation import Connectivity, Odometry
 
 __all__ = [
@@ -27,8 +28,6 @@ __all__ = [
 
 # Decoders make the classes as they read a file's definitions.
 DecodedMessage = Any
-
-_NS_PER_S = 1_000_000_000
 
 
 def read_odometry(message: DecodedMessage, agent: str) -> Odometry:
@@ -86,8 +85,8 @@ def read_round_timing(message: DecodedMessage) -> RoundTiming:
         agent=message.agent,
         round=message.round,
         solve_wall_s=message.solve_wall,
-        offered_wall_s=_stamp_ns(message.offered_at) / _NS_PER_S,
-        agreed_wall_s=_stamp_ns(message.agreed_at) / _NS_PER_S,
+        offered_wall_s=seconds(_stamp_ns(message.offered_at)),
+        agreed_wall_s=seconds(_stamp_ns(message.agreed_at)),
     )
 
 
@@ -103,4 +102,4 @@ def _read_strategy(message: DecodedMessage) -> Strategy:
 
 
 def _stamp_ns(stamp: DecodedMessage) -> int:
-    return int(stamp.sec) * _NS_PER_S + int(stamp.nanosec)
+    return int(stamp.sec) * NANOSECONDS_PER_SECOND + int(stamp.nanosec)

@@ -195,11 +195,9 @@ class Brain:
     def _next_change_s(self, meeting: _Meeting) -> float:
         """Return when the meeting starts or ends, as far as it is known."""
         starts_s = meeting.negotiation.meeting_s
-        if starts_s is None:
-            return math.inf
-        if not meeting.has_started:
+        if starts_s is not None and not meeting.has_started:
             return starts_s
-        return math.inf if meeting.is_overdue else starts_s + self._settings.team.duration_s
+        return math.inf if meeting.is_overdue else self._departure_s(meeting)
 
     def _meet(self, meeting: _Meeting, now_s: float) -> list[Action]:
         negotiation = meeting.negotiation

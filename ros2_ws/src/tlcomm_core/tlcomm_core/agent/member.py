@@ -2,6 +2,7 @@
 
 ``Member``      the same in one process and over ROS
 ``create``      a member from a scenario
+``team_of``     what all its members know
 ``local_plan``  an agent's plan for its task
 """
 
@@ -27,7 +28,7 @@ from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import TravelTimes
 
-__all__ = ["Member", "create", "local_plan"]
+__all__ = ["Member", "create", "local_plan", "team_of"]
 
 # What a periodic controller may lose at the end of a turn or a straight: the rest of its period
 # and a late timer.
@@ -115,6 +116,17 @@ def local_plan(name: str, site: Site, travel: TravelTimes) -> LocalPlan:
     return plan_task(parse(site.scenario.agents[name].task), system)
 
 
+def team_of(site: Site) -> Team:
+    """Return what every member of the scenario's team knows of it."""
+    communication = site.scenario.communication
+    return Team(
+        members=frozenset(site.scenario.agents),
+        planned_range_m=site.planned_range_m,
+        period_s=communication.period_s,
+        duration_s=communication.duration_s,
+    )
+
+
 def create(name: str, site: Site, pacing: Pacing, atlas: Atlas) -> Member:
     """Return a member of the scenario's team, with its local plan made.
 
@@ -128,16 +140,9 @@ def create(name: str, site: Site, pacing: Pacing, atlas: Atlas) -> Member:
         PlanningError: the agent's task has no plan.
     """
     scenario = site.scenario
-    communication = scenario.communication
     allowance_s = _ALLOWANCE_S[pacing]
     travel = atlas.travel(site.motion_of(name, allowance_s))
-    team = Team(
-        members=frozenset(scenario.agents),
-        range_m=communication.range_m,
-        planned_range_m=site.planned_range_m,
-        period_s=communication.period_s,
-        duration_s=communication.duration_s,
-    )
+    team = team_of(site)
     # Members' plans lead through regions: with this done, the first round takes no longer than
     # later ones.
     travel.prepare(site.region_location.values())
@@ -153,5 +158,5 @@ def create(name: str, site: Site, pacing: Pacing, atlas: Atlas) -> Member:
         )
     )
     # Free running, a message is heard when it comes; in lock step, one hop's latency after.
-    latency_ns = nanoseconds(communication.hop_latency_s) if pacing is Pacing.EVENT else 0
-    return Member(name, brain, Radio(latency_ns))
+    latency_s = scenario.communication.hop_latency_s if pacing is Pacing.EVENT else 0.0
+    return Member(name, brain, Radio(nanoseconds(latency_s)))

@@ -65,7 +65,11 @@ class TimedMember:
         self._offered_wall_s: float | None = None
 
     def step(self, now_ns: int) -> tuple[tuple[Action, ...], RoundTiming | None]:
-        """Take a step; return its actions and, when it agreed on a round, what that took."""
+        """Take a step; return its actions and, when it agreed on a round, what that took.
+
+        Raises:
+            InfeasibleRoundError: the team has no admissible next meeting.
+        """
         begin_wall_s = self._wall_s()
         begin_s = self._stopwatch_s()
         before = self.member.phase

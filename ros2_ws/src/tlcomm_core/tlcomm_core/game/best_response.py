@@ -135,8 +135,8 @@ def best_response(
     Returns:
         The best switch, or the present strategy with a change of 0.0.
 
-    Source: Lines 3–11 of Algorithm 1 of the paper: σ_i* = min u_i(s_i', S_−i) − u_i(s_i, S_−i)
-        over z' in Υ_i and h', with t_c in the window.
+    Source: Algorithm 1 of the paper, its loop over agents: σ_i* = min u_i(s_i', S_−i) −
+        u_i(s_i, S_−i) over z' in Υ_i and h', with t_c in the window.
     Cost: O(Z·N + H·|Υ_i|).
     """
     own = problem.candidates[agent]

@@ -61,7 +61,7 @@ class TransitionSystem:
         drive_s: time to drive there, float[E].
         stay_s: time spent there, float[E].
 
-    Source: Section IV-A, T_i and equation (trans-time): T'_i = T_i = ``drive_s`` +
+    Source: Section IV-A, T_i and equation (4): T'_i = T_i = ``drive_s`` +
         D_i = ``stay_s``.
     Deviates: staying put without an action takes ``IDLE_S`` instead of 0 s, and so does an action
         of no duration right after another one at the same place: no loop takes zero time. The

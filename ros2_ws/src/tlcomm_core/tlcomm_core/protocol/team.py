@@ -1,6 +1,6 @@
 """What every member knows of the team beforehand.
 
-``Team``  names, radio range, meeting windows, and how often unanswered messages are repeated
+``Team``  names, range, meeting windows, and how often unanswered messages are repeated
 """
 
 from dataclasses import dataclass
@@ -14,8 +14,8 @@ class Team:
 
     Attributes:
         members: all agents' names.
-        range_m: R, within which two members hear each other.
-        planned_range_m: within which they do although each may be off by its tolerance.
+        planned_range_m: within which two members hear each other although each may be off its place
+            by its tolerance.
         period_s: T_c.
         duration_s: D_c.
         retry_s: a message not known to be superseded is repeated after this time.
@@ -24,7 +24,6 @@ class Team:
     """
 
     members: frozenset[str]
-    range_m: float
     planned_range_m: float
     period_s: float
     duration_s: float

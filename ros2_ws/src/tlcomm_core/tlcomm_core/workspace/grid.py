@@ -98,15 +98,6 @@ class Grid:
         index = int(self._index[row, column])
         return None if index < 0 else index
 
-    def nearest_location(self, x_m: float, y_m: float) -> int | None:
-        """Return the location with its centre nearest to a point; None if no cell is free.
-
-        Ties go to the lowest index. Cost: O(Z).
-        """
-        if not len(self):
-            return None
-        return int(np.argmin(self._distances_m(x_m, y_m)))
-
     def locations_within(self, x_m: float, y_m: float, radius_m: float) -> NDArray[np.intp]:
         """Return the locations, in order, whose centres lie in a closed disc. Cost: O(Z)."""
         return np.flatnonzero(self._distances_m(x_m, y_m) <= radius_m)

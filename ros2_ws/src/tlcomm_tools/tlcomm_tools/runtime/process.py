@@ -14,6 +14,7 @@ from rclpy.parameter import Parameter
 
 from tlcomm_core.errors import InputError, PlanningError, TlcommError
 from tlcomm_core.pace import parse_pace
+from tlcomm_core.units import seconds
 from tlcomm_tools.runtime.notify import (
     Failed,
     Finished,
@@ -29,7 +30,6 @@ __all__ = ["main"]
 
 _STATUS_INPUT: Final = 2
 _STATUS_BROKEN: Final = 3
-_NS_PER_S: Final = 1e9
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -108,7 +108,7 @@ def _be_sim(arguments: argparse.Namespace, notifier: Notifier) -> int:
         on_started=lambda: notifier.tell(Started()),
         on_ready=lambda: notifier.tell(Ready()),
         on_progress=lambda sim_ns, meetings_ended: notifier.tell(
-            Progress(sim_ns / _NS_PER_S, meetings_ended)
+            Progress(seconds(sim_ns), meetings_ended)
         ),
     )
     return _leave(notifier, is_over=is_over)

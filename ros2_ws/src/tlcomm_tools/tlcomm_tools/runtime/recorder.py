@@ -27,6 +27,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 
+from tlcomm_core.units import NANOSECONDS_PER_SECOND
 from tlcomm_msgs.msg import Tick, TickReply
 from tlcomm_tools.bag.definitions import load_typestore, read_definition
 from tlcomm_tools.bag.topics import Topic, recorded_topics
@@ -41,7 +42,6 @@ _DEPTH = 1000
 _PERIOD_S = 0.1
 _ACKNOWLEDGED_S = 2.0
 _STATUS_BROKEN = 3
-_NS_PER_S = 1_000_000_000
 # Every recorded type begins with a stamp, behind the four bytes of the encapsulation.
 _STAMP = struct.Struct("<iI")
 _STAMP_OFFSET = 4
@@ -161,7 +161,7 @@ class Recorder(Node):
 
     def _take(self, number: int, data: bytes) -> None:
         seconds, nanoseconds = _STAMP.unpack_from(data, _STAMP_OFFSET)
-        self._writer.write(number, seconds * _NS_PER_S + nanoseconds, data)
+        self._writer.write(number, seconds * NANOSECONDS_PER_SECOND + nanoseconds, data)
         self._ledger.count(number)
         self._is_running = True
         if self._tick is not None:
