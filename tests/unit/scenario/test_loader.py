@@ -87,7 +87,7 @@ BAD = [
     ("duration_s: 5.0", "duration_s: 5.0, hop_latency_s: 5.0", 11, "communication.hop_latency_s"),
     ("range_m: 1.0", "range_m: 0.04", 11, "communication.range_m: 0.04 isn't more than twice"),
     ("linear_mps: 1.0", "linear_mps: -1.0", 12,
-     "motion.linear_mps: found -1.0; expected greater than 0"),
+     "motion.linear_mps: found -1.0; expected greater than or equal to 0.001"),
     ("linear_mps: 0.5", "linear_mps: 0.0", 21, "agents.two.motion.linear_mps: found 0.0"),
     ("drop: 2", "drop: -2", 22, "agents.two.actions.drop: found -2"),
     ("  two:", "  one:", 18, "agents.one: given twice; it first stands in line 15"),

@@ -50,10 +50,11 @@ def test_the_overview_lists_the_verbs(
 
 
 def test_no_verb_is_a_usage_error(capsys: pytest.CaptureFixture[str]) -> None:
-    """Without a verb the overview is shown, at exit status 2."""
-    status, out, _ = run(capsys)
+    """Without a verb one line lists them, at exit status 2."""
+    status, out, err = run(capsys)
     assert status == 2
-    assert out.startswith("usage: tlcomm VERB")
+    assert out == ""
+    assert err.startswith("tlcomm: error: expected a verb (the verbs are demo, run,")
 
 
 BAD_USAGE = [
@@ -130,7 +131,9 @@ def test_a_task_without_a_plan_is_one_line(
     (tmp_path / "bad.yaml").write_text(text.replace(task, "G F (pick & !pick)"), "utf-8")
     status, _, err = run(capsys, "plan", "bad.yaml")
     assert status == 2
-    assert re.fullmatch(r"tlcomm: error: task .* contradicts itself.*\n", err)
+    assert re.fullmatch(
+        r"tlcomm: error: bad.yaml: agents.west.task: .* contradicts itself.*\n", err
+    )
 
 
 def test_out_must_be_empty_and_writable(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

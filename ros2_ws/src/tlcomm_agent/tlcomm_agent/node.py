@@ -275,8 +275,8 @@ class AgentNode(Node):
                 publisher = self._team_pubs[wire.team_topic(message)]
                 self._publish(publisher, wire.encode_message(message, now_ns))
             case actions.ReportTask(event):
-                task_event = wire.encode_task_event(event, self.config.name, now_ns)
-                self._publish(self._task_pub, task_event)
+                name = self.config.name
+                self._publish(self._task_pub, wire.encode_task_event(event, name, now_ns))
             case actions.HoldStrategy(strategy):
                 self._publish(self._strategy_pub, wire.encode_team_strategy(strategy, now_ns))
             case actions.CountIgnored(reason):

@@ -39,11 +39,13 @@ class Simulated:
     Attributes:
         records: what result and event log are made from.
         ignored: per reason, how many messages changed nothing.
+        collisions: per agent, how often it ran into something.
         sim_ns: simulated time at the end.
     """
 
     records: RunRecords = field(default_factory=RunRecords)
     ignored: Counter[str] = field(default_factory=Counter)
+    collisions: dict[str, int] = field(default_factory=dict)
     sim_ns: int = 0
 
 
@@ -72,6 +74,7 @@ def simulate(
         harness.left.sim_ns = step.time_ns
         if on_progress is not None:
             on_progress(step.time_ns, harness.lockstep.meetings_ended)
+    harness.left.collisions = dict(harness.world.collisions)
     return harness.left
 
 
@@ -90,8 +93,9 @@ class _Harness:
             name: TimedMember(member, time.thread_time, time.time)
             for name, member in self._members.items()
         }
+        self.world = create_world(mission.site, mission.seed)
         self.lockstep = LockStep(
-            create_world(mission.site, mission.seed),
+            self.world,
             tuple(scenario.agents),
             nanoseconds(scenario.communication.hop_latency_s),
             mission.stop,

@@ -14,6 +14,7 @@ from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.world.lockstep import LockStep
+from tlcomm_core.world.world import World
 from tlcomm_sim.conductor import RECORDER, Conductor
 from tlcomm_sim.freerun import FreeRunConductor
 from tlcomm_sim.lockstep import LockStepConductor
@@ -56,10 +57,13 @@ class SimConfig:
         mission = Mission(site, seed, rounds, None if until_s is None else float(until_s))
         return cls(mission, parse_pace(str(get("pace"))), bool(get("recorder")))
 
-    def create_conductor(self) -> Conductor:
-        """Return a conductor over a new world."""
+    def create_world(self) -> World:
+        """Return the mission's world at t = 0."""
+        return create_world(self.mission.site, self.mission.seed)
+
+    def create_conductor(self, world: World) -> Conductor:
+        """Return a conductor over a world at t = 0."""
         scenario, stop = self.mission.site.scenario, self.mission.stop
-        world = create_world(self.mission.site, self.mission.seed)
         agents = tuple(scenario.agents)
         if self.pace.factor is None:
             latency_ns = nanoseconds(scenario.communication.hop_latency_s)

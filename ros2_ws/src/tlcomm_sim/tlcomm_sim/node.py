@@ -103,7 +103,8 @@ class SimNode(Node):
         self._on_ready: Final = on_ready
         self._on_progress: Final = on_progress
         self._agents: Final = tuple(self.config.mission.site.scenario.agents)
-        self._conductor: Final = self.config.create_conductor()
+        self._world: Final = self.config.create_world()
+        self._conductor: Final = self.config.create_conductor(self._world)
         self._ready: set[str] = set()
         self._reported_ns = -1
         self._watched: tuple[object, ...] = ()
@@ -222,6 +223,11 @@ class SimNode(Node):
                 case _:
                     assert_never(output)
 
+    def log_mishaps(self) -> None:
+        """Log how often each agent ran into something, or commanded what can't be done."""
+        collisions, refused = dict(self._world.collisions), dict(self._world.refused)
+        self.get_logger().info(f"done; collisions: {collisions}; refused commands: {refused}")
+
     def _show(self, observation: Observation) -> None:
         match observation:
             case Odometry(agent=agent):
@@ -267,6 +273,7 @@ def run(
         node = SimNode(parameters=parameters, on_ready=on_ready, on_progress=on_progress)
         on_started()
         spin(node, lambda: node.is_done)
+        node.log_mishaps()
     except ExternalShutdownException:
         return False
     except RuntimeError:

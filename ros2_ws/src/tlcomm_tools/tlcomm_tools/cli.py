@@ -65,14 +65,16 @@ def main(argv: Sequence[str] | None = None) -> int:
         return Status.FINE
     except OSError as error:
         status = Status.BROKEN if error.errno in _TOLD_BY_FILE else Status.BAD_INPUT
-        place = "" if error.filename is None else f"{str(error.filename)!r}: "
+        place = "while writing: " if error.filename is None else f"{str(error.filename)!r}: "
         return _report(f"{place}{error.strerror}", status)
 
 
 def _dispatch(arguments: Sequence[str]) -> int:
-    if not arguments or arguments[0] in _HELP:
+    if not arguments:
+        raise InputError(f"expected a verb (the verbs are {', '.join(VERBS)}; see 'tlcomm --help')")
+    if arguments[0] in _HELP:
         print(_overview())
-        return Status.FINE if arguments else Status.BAD_INPUT
+        return Status.FINE
     verb, *rest = arguments
     if verb not in VERBS:
         raise InputError(f"unknown verb {verb!r} (the verbs are {', '.join(VERBS)})")
@@ -90,7 +92,11 @@ def _dispatch(arguments: Sequence[str]) -> int:
         options = parser.parse_args(rest)
     except SystemExit:  # --help
         return Status.FINE
-    status: Status = module.run(options)
+    try:
+        status: Status = module.run(options)
+    except PlanningError as error:
+        scenario = getattr(options, "scenario", None)
+        raise type(error)(f"{scenario}: {error}" if scenario else str(error)) from error
     return status
 
 

@@ -280,8 +280,10 @@ def test_a_visit_is_a_step_of_the_word() -> None:
     assert audit_run(changed, run).document()["tasks"]["west"]["satisfied"] == 1
 
 
-def test_a_note_of_damage_is_kept() -> None:
-    """What couldn't be read is in the document."""
+def test_damage_is_a_violation() -> None:
+    """A bag that couldn't be read to its end is never well, however well its beginning is."""
     run = RecordedRun(hand_made_records(), AGENTS, 25 * S, {}, "the file has no end")
+    found = audit_run(hand_made_scenario(), run)
+    assert found.violations == ("the bag is damaged: the file has no end",)
     assert audit_run(hand_made_scenario(), run).document()["note"] == "the file has no end"
     assert math.isclose(audit_run(hand_made_scenario(), run).sim_s, 25.0)

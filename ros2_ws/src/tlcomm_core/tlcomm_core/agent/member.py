@@ -4,6 +4,7 @@
 ``create``      a member from a scenario
 ``team_of``     what all its members know
 ``local_plan``  an agent's plan for its task
+``check_tasks``  whether all agents have one
 """
 
 import math
@@ -15,11 +16,13 @@ from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
 from tlcomm_core.agent.events import MessageHeard, OdometryReceived, TimePassed
 from tlcomm_core.agent.radio import Radio
 from tlcomm_core.agent.rounds import MeetingRounds
+from tlcomm_core.errors import PlanningError
 from tlcomm_core.geometry import Pose
 from tlcomm_core.ltl import parse
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.planning.synthesis import plan_task
 from tlcomm_core.planning.transition_system import build
+from tlcomm_core.protocol.actions import CountIgnored
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.protocol.negotiation import Phase
 from tlcomm_core.protocol.team import Team
@@ -28,7 +31,7 @@ from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import TravelTimes
 
-__all__ = ["Member", "create", "local_plan", "team_of"]
+__all__ = ["Member", "check_tasks", "create", "local_plan", "team_of"]
 
 # What a periodic controller may lose at the end of a turn or a straight: the rest of its period
 # and a late timer.
@@ -61,11 +64,6 @@ class Member:
         """Where planning the next round stands; ``None`` when not at a meeting."""
         return self._brain.phase
 
-    @property
-    def out_of_range(self) -> int:
-        """How many messages the radio didn't let through."""
-        return self._radio.out_of_range
-
     def see_odometry(
         self, stamp_ns: int, pose: Pose, linear_mps: float, angular_radps: float
     ) -> None:
@@ -91,8 +89,10 @@ class Member:
         odometry, self._odometry = self._odometry, []
         for event in odometry:
             actions += self._brain.handle(event, now_s)
+        before = self._radio.out_of_range
         for message in self._radio.heard(now_ns):
             actions += self._brain.handle(MessageHeard(message), now_s)
+        actions += [CountIgnored("out of range")] * (self._radio.out_of_range - before)
         actions += self._brain.handle(TimePassed(), now_s)
         need_s = self._brain.next_need_s
         # Rounding must not ask for the instant that just was.
@@ -104,7 +104,7 @@ def local_plan(name: str, site: Site, travel: TravelTimes) -> LocalPlan:
     """Return an agent's optimal local plan.
 
     Raises:
-        PlanningError: there is none.
+        PlanningError: there is none; the message says whose.
     """
     system = build(
         travel,
@@ -113,7 +113,21 @@ def local_plan(name: str, site: Site, travel: TravelTimes) -> LocalPlan:
         site.regions_at,
         site.action_durations(name),
     )
-    return plan_task(parse(site.scenario.agents[name].task), system)
+    try:
+        return plan_task(parse(site.scenario.agents[name].task), system)
+    except PlanningError as error:
+        raise type(error)(f"agents.{name}.task: {error}") from error
+
+
+def check_tasks(site: Site) -> None:
+    """Make every agent's plan, to see that there is one.
+
+    Raises:
+        PlanningError: an agent's task has no plan.
+    """
+    atlas = Atlas(site.grid)
+    for name in site.scenario.agents:
+        local_plan(name, site, atlas.travel(site.motion_of(name)))
 
 
 def team_of(site: Site) -> Team:

@@ -30,6 +30,8 @@ _HUGE: Final = 1e9
 
 Number = Annotated[float, Field(ge=-_HUGE, le=_HUGE)]
 Positive = Annotated[float, Field(gt=0.0, le=_HUGE)]
+# Slower agents would take longer than any run for a single cell.
+Speed = Annotated[float, Field(ge=1e-3, le=1e3)]
 NotNegative = Annotated[float, Field(ge=0.0, le=_HUGE)]
 Share = Annotated[float, Field(ge=0.0, le=1.0)]
 # Valid as a ROS namespace token and as an atom.
@@ -72,16 +74,16 @@ class Communication(_Section):
 class Drive(_Section):
     """Speeds of an agent, and how close to a point its controller comes."""
 
-    linear_mps: Positive
-    angular_radps: Positive
+    linear_mps: Speed
+    angular_radps: Speed
     position_tolerance_m: Positive = 0.02
 
 
 class DriveOverride(_Section):
     """What one agent's drive has different from the team's."""
 
-    linear_mps: Positive | None = None
-    angular_radps: Positive | None = None
+    linear_mps: Speed | None = None
+    angular_radps: Speed | None = None
     position_tolerance_m: Positive | None = None
 
 

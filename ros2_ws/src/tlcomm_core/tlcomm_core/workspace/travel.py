@@ -254,7 +254,8 @@ class TravelTimes:
         onward_s = self.time_to(target)[np.arange(len(reach.heading)), reach.heading]
         # Where the agent needn't move, it keeps a yaw that may not be a lattice heading.
         onward_s[reach.time_s == 0.0] = direct_s
-        extra_s = reach.time_s + onward_s - direct_s
+        # Never negative but for rounding: the way by z is one of those that the direct one beats.
+        extra_s = np.maximum(reach.time_s + onward_s - direct_s, 0.0)
         extra_s.setflags(write=False)
         return Detour(reach.time_s, extra_s)
 

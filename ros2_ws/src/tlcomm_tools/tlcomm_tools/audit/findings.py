@@ -94,6 +94,7 @@ def audit_run(scenario: Scenario, run: RecordedRun) -> Audit:
         if not own.satisfied
     ]
     violations = [
+        *([f"the bag is damaged: {run.damage}"] if run.damage else []),
         *faults,
         *missed,
         *(line for own in tasks for line in own.violations),

@@ -10,6 +10,7 @@ answered only when all of them have arrived. So nothing can be missing without b
 
 import signal
 import struct
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from importlib import import_module
@@ -21,7 +22,6 @@ from ament_index_python.packages import get_package_share_directory
 from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 from rclpy.duration import Duration
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
@@ -41,6 +41,12 @@ _NAME = "recorder"
 _DEPTH = 1000
 _PERIOD_S = 0.1
 _ACKNOWLEDGED_S = 2.0
+# After this time without what a tick counts, it is reported: before the sim's own deadline.
+_PATIENCE_S = 7.0
+# How long the end waits for what is under way, and after how many silent timers it waits no more.
+_DRAIN_S = 1.5
+_SILENT_PERIODS = 3
+_STATUS_INPUT = 2
 _STATUS_BROKEN = 3
 # Every recorded type begins with a stamp, behind the four bytes of the encapsulation.
 _STAMP = struct.Struct("<iI")
@@ -72,8 +78,9 @@ def run(settings: RecorderSettings, spin: Spin, notifier: Notifier) -> int:
     try:
         writer = _open_bag(settings)
     except OSError as error:
-        notifier.tell(Failed(f"can't write {str(settings.bag)!r}: {error.strerror}", 2))
-        return 2
+        reason = f"can't write {str(settings.bag)!r}: {error.strerror}"
+        notifier.tell(Failed(reason, _STATUS_INPUT))
+        return _STATUS_INPUT
     try:
         with writer:
             is_over = _record(settings, writer, spin, notifier)
@@ -94,24 +101,31 @@ def _open_bag(settings: RecorderSettings) -> BagWriter:
 
 
 def _record(settings: RecorderSettings, writer: BagWriter, spin: Spin, notifier: Notifier) -> bool:
-    """Record; return whether the run came to its end."""
-    # rclpy shuts itself down on SIGINT; a KeyboardInterrupt besides could strike anywhere.
-    previous = signal.signal(signal.SIGINT, lambda *_: None)
+    """Record; return whether the run came to its end.
+
+    A signal ends the recording, but not at once: what the others said before they stopped is under
+    way on many topics, and would otherwise end at a different time on each.
+    """
+    signals: list[int] = []
+    previous = {
+        number: signal.signal(number, lambda caught, _: signals.append(caught))
+        for number in (signal.SIGINT, signal.SIGTERM)
+    }
     context = rclpy.Context()
-    rclpy.init(context=context, signal_handler_options=SignalHandlerOptions.ALL)
-    node = None
+    rclpy.init(context=context, signal_handler_options=SignalHandlerOptions.NO)
+    node = Recorder(settings, writer, notifier, context)
     try:
-        node = Recorder(settings, writer, notifier, context)
         notifier.tell(Started())
-        spin(node, lambda: node.is_done)
-    except ExternalShutdownException:
-        return False
+        spin(node, lambda: node.is_done or bool(signals))
+        until_s = time.monotonic() + _DRAIN_S
+        spin(node, lambda: node.is_done or node.is_quiet or time.monotonic() > until_s)
+        node.say_what_is_missing()
     finally:
-        if node is not None:
-            node.destroy_node()
+        node.destroy_node()
         rclpy.try_shutdown(context=context)
-        signal.signal(signal.SIGINT, previous)
-    return True
+        for number, handler in previous.items():
+            signal.signal(number, handler)
+    return node.is_done
 
 
 class Recorder(Node):
@@ -135,6 +149,8 @@ class Recorder(Node):
             parameter_overrides=[Parameter("start_type_description_service", value=False)],
         )
         self.is_done = False
+        self._silent_periods = 0
+        self._tick_since_s = 0.0
         self._writer = writer
         self._notifier = notifier
         self._is_ready = False
@@ -148,6 +164,19 @@ class Recorder(Node):
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(_PERIOD_S, self._on_timer, clock=steady)
 
+    @property
+    def is_quiet(self) -> bool:
+        """Whether nothing has arrived for a while."""
+        return self._silent_periods >= _SILENT_PERIODS
+
+    def say_what_is_missing(self) -> None:
+        """Log what a tick counts and hasn't arrived, if the recorder was waiting for it."""
+        if self._tick is not None:
+            self.get_logger().error(self._missing(self._tick))
+
+    def _missing(self, tick: Tick) -> str:
+        return f"hasn't arrived: {self._ledger.describe_missing(_expected(tick))}"
+
     def _subscribe(self, number: int, topic: Topic) -> Any:  # noqa: ANN401 - rclpy is untyped
         package, _, name = topic.type.split("/")
         message_type = getattr(import_module(f"{package}.msg"), name)
@@ -160,9 +189,13 @@ class Recorder(Node):
         )
 
     def _take(self, number: int, data: bytes) -> None:
+        if len(data) < _STAMP_OFFSET + _STAMP.size:
+            self.get_logger().warning(f"ignored: {len(data)} bytes are no message with a stamp")
+            return
         seconds, nanoseconds = _STAMP.unpack_from(data, _STAMP_OFFSET)
         self._writer.write(number, seconds * NANOSECONDS_PER_SECOND + nanoseconds, data)
         self._ledger.count(number)
+        self._silent_periods = 0
         self._is_running = True
         if self._tick is not None:
             self._answer_when_complete(self._tick)
@@ -170,16 +203,11 @@ class Recorder(Node):
     def _on_tick(self, tick: Tick) -> None:
         self._is_running = True
         self._tick = tick
+        self._tick_since_s = time.monotonic()
         self._answer_when_complete(tick)
 
     def _answer_when_complete(self, tick: Tick) -> None:
-        expected = Expected(
-            odometry=tick.odometry_count,
-            connectivity=tick.connectivity_count,
-            clock=tick.clock_count,
-            agents=tuple(tick.agent_counts),
-        )
-        if not self._ledger.is_complete(expected):
+        if not self._ledger.is_complete(_expected(tick)):
             return
         self._tick = None
         if tick.stop:
@@ -191,6 +219,10 @@ class Recorder(Node):
 
     def _on_timer(self) -> None:
         self._writer.flush_if_due()
+        self._silent_periods += 1
+        if self._tick is not None and time.monotonic() > self._tick_since_s + _PATIENCE_S:
+            # The sim could only say that the recorder doesn't answer; this names whose fault it is.
+            self._notifier.tell(Failed(self._missing(self._tick), _STATUS_BROKEN))
         if self._is_running:
             return
         if not self._is_ready and self._is_matched():
@@ -205,6 +237,15 @@ class Recorder(Node):
 
     def _reply(self, sequence: int) -> None:
         self._replies.publish(TickReply(agent=_NAME, sequence=sequence, ready=self._is_ready))
+
+
+def _expected(tick: Tick) -> Expected:
+    return Expected(
+        odometry=tick.odometry_count,
+        connectivity=tick.connectivity_count,
+        clock=tick.clock_count,
+        agents=tuple(tick.agent_counts),
+    )
 
 
 def _qos(*, latched: bool) -> QoSProfile:

@@ -5,8 +5,10 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import Final
 
+from tlcomm_core.agent.member import check_tasks
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.model import Scenario
+from tlcomm_core.scenario.site import Site
 from tlcomm_tools.progress import Progress
 from tlcomm_tools.run import RunOptions, run_mission
 from tlcomm_tools.status import Status
@@ -32,7 +34,10 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(options: Namespace) -> Status:
     """Run the scenario and show the results."""
-    return run_scenario(load_scenario(options.scenario), options)
+    scenario = load_scenario(options.scenario)
+    # Before any process starts: an agent without a plan would only take the others down with it.
+    check_tasks(Site.from_scenario(scenario))
+    return run_scenario(scenario, options)
 
 
 def run_scenario(scenario: Scenario, options: Namespace) -> Status:

@@ -4,6 +4,7 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import Final
 
+from tlcomm_core.agent.member import check_tasks
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_tools.status import Status
@@ -23,6 +24,7 @@ def run(options: Namespace) -> Status:
     """Check the file."""
     scenario = load_scenario(options.scenario)
     site = Site.from_scenario(scenario)
+    check_tasks(site)
     links = scenario.communication
     if options.json:
         print_json(
