@@ -53,6 +53,7 @@ def test_times_are_those_of_the_legs_driven_and_of_the_actions() -> None:
         state = system.states[source]
         leg = PLANT.times.leg_to(state.pose, system.states[target].location)
         assert system.drive_s[step] == leg.duration_s
+        assert system.drive_m[step] == pytest.approx(leg.distance_m)
         assert system.states[target].pose == leg.arrival
         action = system.actions[system.action[step]]
         idle_s = IDLE_S if source == target or leg.duration_s == 0.0 else 0.0
@@ -150,7 +151,7 @@ def test_building_twice_gives_the_same_arrays() -> None:
     one, other = PLANT.system(START), SmallPlant().system(START)
     assert one.states == other.states
     assert one.labels == other.labels
-    for name in ("source", "target", "action", "label", "drive_s", "stay_s"):
+    for name in ("source", "target", "action", "label", "drive_s", "drive_m", "stay_s"):
         assert np.array_equal(getattr(one, name), getattr(other, name))
 
 

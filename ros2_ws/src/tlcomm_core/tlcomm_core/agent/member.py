@@ -16,6 +16,7 @@ from tlcomm_core.agent.radio import Radio
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.geometry import Pose
 from tlcomm_core.ltl import parse
+from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.planning.synthesis import plan_task
 from tlcomm_core.planning.transition_system import build
@@ -99,7 +100,9 @@ class Member:
         return tuple(actions)
 
 
-def local_plan(name: str, site: Site, travel: TravelTimes) -> LocalPlan:
+def local_plan(
+    name: str, site: Site, travel: TravelTimes, objective: Objective = SUFFIX_FIRST
+) -> LocalPlan:
     """Return an agent's optimal local plan.
 
     Raises:
@@ -112,7 +115,7 @@ def local_plan(name: str, site: Site, travel: TravelTimes) -> LocalPlan:
         site.regions_at,
         site.action_durations(name),
     )
-    return plan_task(parse(site.scenario.agents[name].task), system)
+    return plan_task(parse(site.scenario.agents[name].task), system, objective)
 
 
 def create(name: str, site: Site, pacing: Pacing, atlas: Atlas) -> Member:

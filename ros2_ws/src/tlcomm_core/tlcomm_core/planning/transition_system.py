@@ -63,6 +63,7 @@ class TransitionSystem:
         action: index into ``actions``, int[E].
         label: index into ``labels`` of the composed state entered, int[E].
         drive_s: time to drive there, float[E].
+        drive_m: length of the way, float[E].
         stay_s: time spent there, float[E].
 
     Source: Section IV-A, T_i and equation (trans-time): T'_i = T_i = ``drive_s`` +
@@ -82,6 +83,7 @@ class TransitionSystem:
     action: NDArray[np.int64]
     label: NDArray[np.int64]
     drive_s: NDArray[np.float64]
+    drive_m: NDArray[np.float64]
     stay_s: NDArray[np.float64]
 
     @property
@@ -128,6 +130,7 @@ class _Step:
     target: State
     action: int
     drive_s: float
+    drive_m: float
     stay_s: float
 
 
@@ -139,6 +142,7 @@ class _Rows:
     target: Ints
     action: Ints
     drive_s: Floats
+    drive_m: Floats
     stay_s: Floats
 
 
@@ -157,9 +161,12 @@ class _Roads:
         self._durations_s: Final = durations_s
         shape = (len(places) * HEADINGS, len(places))
         self._drive_s: Final = np.empty(shape)
+        self._drive_m: Final = np.empty(shape)
         self._arrival: Final = np.empty(shape, dtype=np.int64)
         for number, place in enumerate(places):
-            headings = times.arrival_heading_to(place)[places].ravel()
+            arrivals = times.arrivals_at(place)
+            headings = arrivals.heading[places].ravel()
+            self._drive_m[:, number] = arrivals.distance_m[places].ravel()
             self._drive_s[:, number] = times.time_to(place)[places].ravel()
             self._arrival[:, number] = (number * HEADINGS + headings) * 2
 
@@ -206,12 +213,13 @@ class _Roads:
         kept[np.arange(len(keys)), count + nodes // HEADINGS] = False
         action = np.zeros(shape, dtype=np.int64)
         action[:, :count] = np.arange(count)
-        no_drive_s, no_stay_s = np.zeros_like(stay_s), np.zeros((len(keys), len(self._places)))
+        no_drive, no_stay_s = np.zeros_like(stay_s), np.zeros((len(keys), len(self._places)))
         return _Rows(
             source=np.repeat(keys, shape[1] - 1),
             target=np.hstack((stay_target, self._arrival[nodes]))[kept],
             action=action[kept],
-            drive_s=np.hstack((no_drive_s, self._drive_s[nodes]))[kept],
+            drive_s=np.hstack((no_drive, self._drive_s[nodes]))[kept],
+            drive_m=np.hstack((no_drive, self._drive_m[nodes]))[kept],
             stay_s=np.hstack((stay_s, no_stay_s))[kept],
         )
 
@@ -276,6 +284,7 @@ class _Builder:
             action=_joined([step.action for _, step in steps], rows.action),
             label=_joined(odd_label, label_at[places, rows.action]),
             drive_s=np.append([step.drive_s for _, step in steps], rows.drive_s),
+            drive_m=np.append([step.drive_m for _, step in steps], rows.drive_m),
             stay_s=np.append([step.stay_s for _, step in steps], rows.stay_s),
         )
 
@@ -303,24 +312,24 @@ class _Builder:
         for location in self._places:
             if location != state.location:
                 leg = self._times.leg_to(state.pose, location)
-                yield _Step(State(location, leg.arrival), 0, leg.duration_s, 0.0)
+                yield _Step(State(location, leg.arrival), 0, leg.duration_s, leg.distance_m, 0.0)
 
     def _stays(self, state: State) -> Iterator[_Step]:
         """Yield the steps at the same place, over its centre if the start is beside it."""
         leg = self._times.leg_to(state.pose, state.location)
         has_arrived = leg.duration_s > 0.0
         idle = State(state.location, leg.arrival)
-        yield _Step(idle, 0, leg.duration_s, 0.0 if has_arrived else IDLE_S)
+        yield _Step(idle, 0, leg.duration_s, leg.distance_m, 0.0 if has_arrived else IDLE_S)
         if not self._regions[state.location]:
             return
         for action, duration_s in enumerate(self._durations_s, start=1):
             if duration_s > 0.0:
-                yield _Step(idle, action, leg.duration_s, duration_s)
+                yield _Step(idle, action, leg.duration_s, leg.distance_m, duration_s)
             elif state.has_acted_instantly:
-                yield _Step(idle, action, 0.0, IDLE_S)
+                yield _Step(idle, action, 0.0, 0.0, IDLE_S)
             else:
                 instant = State(state.location, leg.arrival, has_acted_instantly=True)
-                yield _Step(instant, action, leg.duration_s, 0.0)
+                yield _Step(instant, action, leg.duration_s, leg.distance_m, 0.0)
 
     def _labels_by_place(self) -> Ints:
         """Return the number of the label at each place with each action."""

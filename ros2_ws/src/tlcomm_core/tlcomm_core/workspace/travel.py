@@ -24,7 +24,7 @@ from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.geometry import Pose, wrap_angle
 from tlcomm_core.workspace.cache import BoundedCache
 from tlcomm_core.workspace.grid import Grid
-from tlcomm_core.workspace.lattice import HEADINGS, HEADINGS_RAD, Lattice, PathTree
+from tlcomm_core.workspace.lattice import HEADINGS, HEADINGS_RAD, Arrivals, Lattice, PathTree
 
 __all__ = ["HEADINGS_RAD", "Detour", "Leg", "Motion", "Reach", "TravelTimes"]
 
@@ -183,26 +183,9 @@ class TravelTimes:
         """
         return self._paths_into(target).time_s.reshape(-1, HEADINGS)
 
-    def arrival_heading_to(self, target: int) -> NDArray[np.int64]:
-        """Return the lattice heading with which the leg from every state arrives at a location.
-
-        Args:
-            target: location.
-
-        Returns:
-            int[Z, 8], by location and lattice heading, fresh; the own heading where nothing is
-            driven or no path leads to the target.
-
-        Cost: O(Z log Z): every state looks ever twice as far ahead on its path.
-        """
-        tree = self._paths_into(target)
-        nodes = np.arange(len(tree.time_s))
-        is_end = (nodes // HEADINGS == target) | np.isinf(tree.time_s)
-        ahead = np.where(is_end, nodes, tree.next_node)
-        while not np.array_equal(further := ahead[ahead], ahead):
-            ahead = further
-        headings: NDArray[np.int64] = (ahead % HEADINGS).reshape(-1, HEADINGS)
-        return headings
+    def arrivals_at(self, target: int) -> Arrivals:
+        """Return how the legs from every state arrive at a location; fresh. Cost: O(Z log Z)."""
+        return self._paths_into(target).arrivals(target, self.grid.locations_m)
 
     def reach(self, pose: Pose) -> Reach:
         """Return times and arrival headings from a pose to every location; shared, read-only.
