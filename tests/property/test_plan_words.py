@@ -51,13 +51,20 @@ def starts() -> st.SearchStrategy[Pose]:
 
 def assert_does_what_it_says(plan: LocalPlan, formula: Formula, start: Pose) -> None:
     """Check the word, and the times by driving leg by leg, twice through the suffix."""
-    assert holds(formula, *PLANT.word(plan, start))
+    stem, loop = PLANT.word(plan, start)
+    assert holds(formula, stem, loop)
+    assert plan.word == (tuple(stem), tuple(loop))
     assert any(step.satisfies for step in plan.suffix)
     prefix_s, entry = PLANT.execute(plan.prefix, start)
     assert plan.prefix_s == pytest.approx(prefix_s, abs=1e-9)
     suffix_s, end = PLANT.execute(plan.suffix, entry)
     assert plan.suffix_s == pytest.approx(suffix_s, abs=1e-9)
     assert suffix_s > 0.0
+    assert plan.prefix_m == pytest.approx(PLANT.driven_m(plan.prefix, start), abs=1e-9)
+    assert plan.suffix_m == pytest.approx(PLANT.driven_m(plan.suffix, entry), abs=1e-9)
+    until = next(place for place, step in enumerate(plan.suffix) if step.satisfies) + 1
+    first_s, _ = PLANT.execute((*plan.prefix, *plan.suffix[:until]), start)
+    assert plan.first_s == pytest.approx(first_s, abs=1e-9)
     again_s, end_again = PLANT.execute(plan.suffix, end)
     assert again_s == suffix_s
     assert end_again == end

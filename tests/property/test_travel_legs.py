@@ -133,3 +133,19 @@ def test_the_allowance_covers_every_segment(data: st.DataObject, allowance_s: fl
         segments = len(yaws) + sum(turns)
         assert leg.duration_s >= driven_s(pose, leg) + segments * allowance_s - 1e-9
         assert abs(leg.duration_s - reach.time_s[target]) < 1e-9
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.data())
+def test_the_tables_of_arrivals_are_those_of_the_legs(data: st.DataObject) -> None:
+    """From every lattice state that reaches the target, the leg arrives as told."""
+    grid = data.draw(grids())
+    travel = TravelTimes(grid, MOTION)
+    target = data.draw(st.integers(0, len(grid) - 1))
+    arrivals, times_s = travel.arrivals_at(target), travel.time_to(target)
+    for location, heading in np.argwhere(np.isfinite(times_s)).tolist():
+        x_m, y_m = grid.locations_m[location].tolist()
+        leg = travel.leg_to(Pose(x_m, y_m, HEADINGS_RAD[heading]), target)
+        assert leg.arrival.yaw_rad == HEADINGS_RAD[arrivals.heading[location, heading]]
+        distance_m = arrivals.distance_m[location, heading]
+        assert math.isclose(leg.distance_m, distance_m, abs_tol=1e-9)

@@ -78,3 +78,12 @@ class SmallPlant:
             total_s += leg.duration_s + step.duration_s
             pose = leg.arrival
         return total_s, pose
+
+    def driven_m(self, steps: tuple[PlanStep, ...], pose: Pose) -> float:
+        """Return how far doing some steps leads, leg by leg."""
+        total_m = 0.0
+        for step in steps:
+            leg = self.times.leg_to(pose, step.location)
+            total_m += leg.distance_m
+            pose = leg.arrival
+        return total_m

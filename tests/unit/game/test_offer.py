@@ -25,12 +25,12 @@ def step(x_m: float, duration_s: float) -> PlanStep:
     """Return a step in the corridor."""
     location = TRAVEL.grid.location_at(x_m, 0.25)
     assert location is not None
-    return PlanStep("r", location, "act", duration_s, satisfies=False)
+    return PlanStep("r", location, "act", duration_s, frozenset(), satisfies=False)
 
 
 def plan(*suffix: PlanStep, prefix: tuple[PlanStep, ...] = ()) -> LocalPlan:
     """Return a plan; its costs don't matter here."""
-    return LocalPlan(prefix, suffix, 0.0, 1.0)
+    return LocalPlan(prefix, suffix, 0.0, 1.0, 1.0, 0.0, 0.0, frozenset())
 
 
 SHUTTLE = plan(step(4.25, 4.0), step(0.25, 4.0))

@@ -1,8 +1,11 @@
 """The optimal lasso of products made by hand."""
 
-import numpy as np
+from fractions import Fraction
 
-from tlcomm_core.planning.lasso import Lasso, optimal_lasso
+import numpy as np
+import pytest
+
+from tlcomm_core.planning.lasso import Lasso, Objective, optimal_lasso
 from tlcomm_core.planning.product import Product
 
 
@@ -67,3 +70,37 @@ def test_times_beyond_single_precision_are_told_apart() -> None:
     week = 7 * 86_400 * 10**9
     graph = product(2, (0, 0, week + 1, True), (0, 1, 0, False), (1, 1, week, True))
     assert optimal_lasso(graph) == Lasso((1,), (2,))
+
+
+def test_the_cycle_is_entered_so_that_it_is_satisfied_soon() -> None:
+    """Entering just behind the accepting edge is quick, and would cost a whole pass."""
+    graph = product(
+        4, (0, 1, 1, False), (0, 2, 9, False), (1, 2, 50, False), (2, 3, 1, False), (3, 1, 1, True)
+    )
+    assert optimal_lasso(graph) == Lasso((1,), (3, 4, 2))
+
+
+@pytest.mark.parametrize(
+    ("gamma", "suffix"), [(Fraction(99), 0), (Fraction(101), 2), (Fraction(1, 3), 0)]
+)
+def test_gamma_weighs_the_suffix_against_the_first_satisfaction(
+    gamma: Fraction, suffix: int
+) -> None:
+    """Here 100 ns until the first satisfaction stand against 1 ns per pass."""
+    graph = product(2, (0, 0, 5, True), (0, 1, 101, False), (1, 1, 4, True))
+    assert optimal_lasso(graph, Objective(gamma)).suffix == (suffix,)
+
+
+def test_a_tie_by_gamma_is_exact() -> None:
+    """With γ = 1/10, 100 + 100γ and 105 + 50γ are equal to the last digit: fewer steps decide."""
+    graph = product(2, (0, 1, 55, False), (1, 1, 50, True), (0, 0, 100, True))
+    assert optimal_lasso(graph, Objective(Fraction(1, 10))) == Lasso((), (2,))
+
+
+def test_many_accepting_edges_are_told_apart() -> None:
+    """In a ring where all edges accept, one chord makes the shortest cycle."""
+    count = 50
+    ring = [(place, (place + 1) % count, 1, True) for place in range(count)]
+    graph = product(count, *ring, (30, 11, 1, False))
+    found = optimal_lasso(graph)
+    assert found == Lasso(tuple(range(11)), (*range(11, 30), count))

@@ -46,10 +46,3 @@ def test_a_limit_keeps_what_lies_on_it() -> None:
 def test_the_root_is_reached_by_no_edge() -> None:
     """The path from a state to itself is empty, even with a loop of no time there."""
     assert ShortestPaths(Graph(1, arcs((0, 0, 0))), 0).path_to(0) == ()
-
-
-def test_reversed_edges_keep_their_names() -> None:
-    """Turning round changes the direction alone."""
-    graph = Graph(2, arcs((0, 1, 7))).reversed()
-    assert graph.name_of(1, 0) == 0
-    assert graph.times_from(1).tolist() == [7.0, 0.0]

@@ -1,11 +1,14 @@
 """Plans, and reasons why there is none, in the small plant."""
 
+from fractions import Fraction
+
 import pytest
 
 from support.small_plant import SmallPlant
 from tlcomm_core.errors import UnreachableTaskError, UnsatisfiableTaskError
 from tlcomm_core.geometry import Pose
 from tlcomm_core.ltl import parse
+from tlcomm_core.planning.lasso import Objective
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
 from tlcomm_core.planning.synthesis import plan_task
 
@@ -120,3 +123,15 @@ def test_planning_twice_gives_the_same_plan() -> None:
     """Ties are settled by the input alone."""
     text = "G F p & G F r & G F m & G F hall"
     assert plan_task(parse(text), SmallPlant().system()) == plan(text)
+
+
+def test_gamma_chooses_between_the_prefix_and_the_suffix() -> None:
+    """A small γ never satisfies later than a large one, nor with a shorter suffix."""
+    formula = parse("G F (p & collect & F (r & unload)) | G F m")
+    small, large = (
+        plan_task(formula, SYSTEM, Objective(gamma))
+        for gamma in (Fraction(1, 1000), Fraction(1000))
+    )
+    least = plan_task(formula, SYSTEM)
+    assert small.first_s <= large.first_s
+    assert least.suffix_s <= large.suffix_s <= small.suffix_s

@@ -53,6 +53,7 @@ def test_times_are_those_of_the_legs_driven_and_of_the_actions() -> None:
         state = system.states[source]
         leg = PLANT.times.leg_to(state.pose, system.states[target].location)
         assert system.drive_s[step] == leg.duration_s
+        assert system.drive_m[step] == pytest.approx(leg.distance_m)
         assert system.states[target].pose == leg.arrival
         action = system.actions[system.action[step]]
         idle_s = IDLE_S if source == target or leg.duration_s == 0.0 else 0.0
@@ -150,5 +151,21 @@ def test_building_twice_gives_the_same_arrays() -> None:
     one, other = PLANT.system(START), SmallPlant().system(START)
     assert one.states == other.states
     assert one.labels == other.labels
-    for name in ("source", "target", "action", "label", "drive_s", "stay_s"):
+    for name in ("source", "target", "action", "label", "drive_s", "drive_m", "stay_s"):
         assert np.array_equal(getattr(one, name), getattr(other, name))
+
+
+def test_without_regions_the_start_can_idle() -> None:
+    """A plant without regions has one state and one step."""
+    system = SmallPlant(()).system()
+    assert [state.pose for state in system.states] == [START]
+    assert system.stay_s.tolist() == [IDLE_S]
+
+
+@pytest.mark.parametrize("start", [START, Pose(0.25, 0.25, 0.3), Pose(0.25, 0.25, 0.0)])
+def test_the_first_state_is_the_start_and_none_is_told_twice(start: Pose) -> None:
+    """Whether the start is a lattice state or not, it is number 0, and states differ."""
+    system = PLANT.system(start, {"beep": 0.0, "collect": 4.0})
+    assert system.states[0].pose == start
+    assert len(set(system.states)) == len(system.states)
+    assert len(set(system.labels)) == len(system.labels)

@@ -67,6 +67,15 @@ BAD_USAGE = [
     (["validate", SCENARIO, "--fast"], "unrecognized arguments: --fast"),
     (["validate", SCENARIO, "more"], "unrecognized arguments: more"),
     (["plan", SCENARIO, "--agent", "nobody"], "no agent 'nobody' (the agents are west, carrier"),
+    (["plan", SCENARIO, "--gamma", "0"], "--gamma: expected a number or a ratio from 1e-9 to 1e9"),
+    (
+        ["plan", SCENARIO, "--gamma", "1e-99999999"],
+        "--gamma: expected a number or a ratio from 1e-9 to 1e9",
+    ),
+    (
+        ["plan", SCENARIO, "--gamma", "inf"],
+        "--gamma: expected a number or a ratio from 1e-9 to 1e9",
+    ),
     (["ltl", "G F (a &"], "column 9: expected an operand after '&'"),
     (["ltl", "a", "--hoa", "--dot"], "not allowed with argument"),
     (["ltl"], "required: FORMULA"),
@@ -170,6 +179,9 @@ def test_plan(capsys: pytest.CaptureFixture[str]) -> None:
     assert list(plans) == ["west", "carrier", "east"]
     assert all(any(step["satisfies"] for step in own["suffix"]) for own in plans.values())
     assert all(own["suffix_s"] > 0.0 for own in plans.values())
+    assert all(own["suffix_m"] > 0.0 for own in plans.values())
+    assert all(len(own["word"]["loop"]) == len(own["suffix"]) for own in plans.values())
+    assert run(capsys, "plan", SCENARIO, "--gamma", "1/3")[0] == 0
     status, out, _ = run(capsys, "plan", SCENARIO, "--agent", "east")
     assert status == 0
     assert out.startswith("east: G F ((east_bench & inspect)")

@@ -19,6 +19,7 @@ from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.geometry import Pose
 from tlcomm_core.ltl import parse
+from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.planning.synthesis import plan_task
 from tlcomm_core.planning.transition_system import build
@@ -100,7 +101,9 @@ class Member:
         return tuple(actions)
 
 
-def local_plan(name: str, site: Site, travel: TravelTimes) -> LocalPlan:
+def local_plan(
+    name: str, site: Site, travel: TravelTimes, objective: Objective = SUFFIX_FIRST
+) -> LocalPlan:
     """Return an agent's optimal local plan.
 
     Raises:
@@ -114,7 +117,7 @@ def local_plan(name: str, site: Site, travel: TravelTimes) -> LocalPlan:
         site.action_durations(name),
     )
     try:
-        return plan_task(parse(site.scenario.agents[name].task), system)
+        return plan_task(parse(site.scenario.agents[name].task), system, objective)
     except PlanningError as error:
         raise type(error)(f"agents.{name}.task: {error}") from error
 

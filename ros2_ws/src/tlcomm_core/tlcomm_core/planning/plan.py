@@ -19,6 +19,7 @@ class PlanStep:
         action: action performed there, or ``None`` for a_0: to have arrived is all.
         duration_s: time that the step takes once there (0 for a mere visit, the idle time for
             staying put without an action).
+        label: everything that is true there, the step's letter of the word.
         satisfies: whether completing this step takes an accepting transition of the task's
             automaton; for □◇φ^s it completes φ^s.
     """
@@ -27,6 +28,7 @@ class PlanStep:
     location: int
     action: str | None
     duration_s: float
+    label: frozenset[str]
     satisfies: bool
 
 
@@ -40,12 +42,26 @@ class LocalPlan:
         prefix_s: time from the start pose to the end of the prefix.
         suffix_s: time of one pass through the suffix, the makespan ξ_i for □◇φ^s whose suffix
             satisfies once.
+        first_s: time from the start pose until the suffix satisfies for the first time.
+        prefix_m: length of the way from the start pose to the end of the prefix.
+        suffix_m: length of the way of one pass through the suffix.
+        initial_label: what is true at the start, the first letter of the word.
     """
 
     prefix: tuple[PlanStep, ...]
     suffix: tuple[PlanStep, ...]
     prefix_s: float
     suffix_s: float
+    first_s: float
+    prefix_m: float
+    suffix_m: float
+    initial_label: frozenset[str]
+
+    @property
+    def word(self) -> tuple[tuple[frozenset[str], ...], tuple[frozenset[str], ...]]:
+        """The word that the plan reads: letters once, and letters for ever."""
+        stem = (self.initial_label, *(step.label for step in self.prefix))
+        return stem, tuple(step.label for step in self.suffix)
 
     def step(self, index: int) -> PlanStep:
         """Return step number ``index`` ≥ 0, counted on through every pass of the suffix."""

@@ -48,10 +48,6 @@ class Arcs:
         columns = (self.source, self.target, self.time_ns, self.name)
         return Arcs(*(column[chosen] for column in columns))
 
-    def shifted(self, source: int, target: int) -> "Arcs":
-        """Return the same edges between states with other numbers."""
-        return Arcs(self.source + source, self.target + target, self.time_ns, self.name)
-
     def joined(self, *others: "Arcs") -> "Arcs":
         """Return these edges and those of the others."""
         every = (self, *others)
@@ -74,20 +70,15 @@ class Graph:
     """
 
     def __init__(self, size: int, arcs: Arcs) -> None:
-        """Sort and thin out. Cost: O(E log E)."""
+        """Sort and thin out. Cost: O(N + E)."""
         self.size: Final = size
-        order = np.lexsort((arcs.time_ns, arcs.target, arcs.source))
+        order = _by(size, arcs.target)
+        order = order[_by(size, arcs.source[order])]
         pairs = arcs.source[order] * size + arcs.target[order]
-        self.arcs: Final = arcs.where(order[np.diff(pairs, prepend=-1) != 0])
+        self.arcs: Final = arcs.where(order[_fastest(pairs, arcs.time_ns[order])])
         self.first_arc: Final = np.searchsorted(self.arcs.source, np.arange(size + 1))
         times_ns = self.arcs.time_ns.astype(np.float64)
         self.matrix: Final = self._csr(times_ns, self.arcs.target, self.first_arc)
-
-    def reversed(self) -> "Graph":
-        """Return the graph with every edge turned round."""
-        arcs = self.arcs
-        turned = Arcs(arcs.target, arcs.source, arcs.time_ns, arcs.name)
-        return Graph(self.size, turned)
 
     def times_from(self, root: int, limit_ns: float = np.inf) -> Floats:
         """Return the least time from one state to each, float[N]; inf beyond the limit."""
@@ -138,3 +129,23 @@ class ShortestPaths:
             names.append(self._graph.name_of(previous, state))
             state = previous
         return tuple(reversed(names))
+
+
+def _by(size: int, states: Ints) -> Ints:
+    """Return the stable order of edges by one of their states: a counting sort."""
+    count = len(states)
+    content = (np.arange(count), states.astype(np.int32), np.arange(count + 1, dtype=np.int32))
+    order: Ints = csr_array(content, shape=(count, size)).tocsc().data
+    return order
+
+
+def _fastest(pairs: Ints, times_ns: Ints) -> Ints:
+    """Return the index of the fastest of each run of equal pairs, the first of equals."""
+    if not len(pairs):
+        return np.arange(0)
+    is_new = np.diff(pairs, prepend=-1) != 0
+    least_ns = np.minimum.reduceat(times_ns, np.flatnonzero(is_new))
+    run = np.cumsum(is_new) - 1
+    fastest = np.flatnonzero(times_ns == least_ns[run])
+    firsts: Ints = fastest[np.diff(run[fastest], prepend=-1) != 0]
+    return firsts

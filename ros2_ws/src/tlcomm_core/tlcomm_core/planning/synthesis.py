@@ -9,7 +9,7 @@ from dataclasses import replace
 from tlcomm_core.errors import PlanningError, UnreachableTaskError, UnsatisfiableTaskError
 from tlcomm_core.ltl import BuchiAutomaton, Cube, Formula, Guard, translate
 from tlcomm_core.planning import product as products
-from tlcomm_core.planning.lasso import optimal_lasso
+from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective, optimal_lasso
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
 from tlcomm_core.planning.product import Product
 from tlcomm_core.planning.transition_system import TransitionSystem
@@ -17,7 +17,9 @@ from tlcomm_core.planning.transition_system import TransitionSystem
 __all__ = ["plan_task"]
 
 
-def plan_task(formula: Formula, system: TransitionSystem) -> LocalPlan:
+def plan_task(
+    formula: Formula, system: TransitionSystem, objective: Objective = SUFFIX_FIRST
+) -> LocalPlan:
     """Return the optimal local plan of an agent for its task.
 
     The plan's steps are those of the transition system; the initial state, whose label the word
@@ -27,6 +29,7 @@ def plan_task(formula: Formula, system: TransitionSystem) -> LocalPlan:
     Args:
         formula: the task.
         system: the agent's transition system.
+        objective: what is to be least.
 
     Raises:
         UnsatisfiableTaskError: no word satisfies the formula.
@@ -37,16 +40,21 @@ def plan_task(formula: Formula, system: TransitionSystem) -> LocalPlan:
     """
     automaton = translate(formula)
     product = products.build(system, automaton)
-    lasso = optimal_lasso(product)
+    lasso = optimal_lasso(product, objective)
     if lasso is None:
         raise _failure(formula, automaton, system)
     prefix = _steps(lasso.prefix, product, system, automaton)
     suffix = _steps(lasso.suffix, product, system, automaton)
+    first = next(place for place, step in enumerate(suffix) if step.satisfies)
     return LocalPlan(
         prefix=prefix,
         suffix=suffix,
         prefix_s=_total_s(lasso.prefix, product, system),
         suffix_s=_total_s(lasso.suffix, product, system),
+        first_s=_total_s((*lasso.prefix, *lasso.suffix[: first + 1]), product, system),
+        prefix_m=_total_m(lasso.prefix, product, system),
+        suffix_m=_total_m(lasso.suffix, product, system),
+        initial_label=system.labels[system.initial_label],
     )
 
 
@@ -66,6 +74,7 @@ def _step(
         location=location,
         action=system.actions[system.action[step]],
         duration_s=float(system.stay_s[step]),
+        label=system.labels[system.label[step]],
         satisfies=bool(product.accepting[edge]),
     )
 
@@ -79,6 +88,11 @@ def _total_s(edges: Sequence[int], product: Product, system: TransitionSystem) -
     """Return the time of some edges, added up in the order in which they are executed."""
     steps = product.step[list(edges)]
     return float(sum((system.drive_s[steps] + system.stay_s[steps]).tolist()))
+
+
+def _total_m(edges: Sequence[int], product: Product, system: TransitionSystem) -> float:
+    """Return the length of the way of some edges."""
+    return float(system.drive_m[product.step[list(edges)]].sum())
 
 
 def _failure(

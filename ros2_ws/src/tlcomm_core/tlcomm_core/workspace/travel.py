@@ -24,7 +24,7 @@ from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.geometry import Pose, wrap_angle
 from tlcomm_core.workspace.cache import BoundedCache
 from tlcomm_core.workspace.grid import Grid
-from tlcomm_core.workspace.lattice import HEADINGS, HEADINGS_RAD, Lattice, PathTree
+from tlcomm_core.workspace.lattice import HEADINGS, HEADINGS_RAD, Arrivals, Lattice, PathTree
 
 __all__ = ["HEADINGS_RAD", "Detour", "Leg", "Motion", "Reach", "TravelTimes"]
 
@@ -182,6 +182,10 @@ class TravelTimes:
             leads to it. A read-only view of the cache.
         """
         return self._paths_into(target).time_s.reshape(-1, HEADINGS)
+
+    def arrivals_at(self, target: int) -> Arrivals:
+        """Return how the legs from every state arrive at a location; fresh. Cost: O(Z log Z)."""
+        return self._paths_into(target).arrivals(target, self.grid.locations_m)
 
     def reach(self, pose: Pose) -> Reach:
         """Return times and arrival headings from a pose to every location; shared, read-only.

@@ -9,13 +9,17 @@ from typing import Any, Final
 
 from tlcomm_core.agent.member import local_plan
 from tlcomm_core.game.algorithm import solve
+from tlcomm_core.ltl import parse, translate
 from tlcomm_core.mission import Mission
+from tlcomm_core.planning.product import build
+from tlcomm_core.planning.synthesis import plan_task
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate
 from tlcomm_core.units import seconds
 from tlcomm_core.workspace.travel import TravelTimes
 from tlcomm_tools.limit import time_limit_s
+from tlcomm_tools.problems import PROBLEMS, Problem
 from tlcomm_tools.rounds import pose_round
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_number, format_table
@@ -43,6 +47,7 @@ def run(options: Namespace) -> Status:
     """Measure and show the table."""
     sites = [Site.from_scenario(load_scenario(path)) for path in options.scenarios]
     measured = [_measure(site, options.repeats, options.rounds) for site in sites]
+    planning = [_measure_planning(problem, options.repeats) for problem in PROBLEMS]
     if options.json:
         print_json(
             {
@@ -50,10 +55,12 @@ def run(options: Namespace) -> Status:
                 "repeats": options.repeats,
                 "rounds": options.rounds,
                 "scenarios": measured,
+                "planning": planning,
             }
         )
     else:
         print(_format_measured(measured, options.repeats, options.rounds))
+        print(f"\n{_format_planning(planning)}")
     return Status.FINE
 
 
@@ -75,6 +82,18 @@ def _measure(site: Site, repeats: int, rounds: int) -> dict[str, Any]:
         "simulate_s": simulate_s,
         "sim_s": sim_s,
         "realtime_factor": sim_s / simulate_s,
+    }
+
+
+def _measure_planning(problem: Problem, repeats: int) -> dict[str, Any]:
+    formula, system = parse(problem.task), problem.make()
+    product = build(system, translate(formula))
+    return {
+        "problem": problem.name,
+        "product_states": product.size,
+        "product_edges": len(product.source),
+        "system_s": _median_s(problem.make, repeats),
+        "plan_s": _median_s(lambda: plan_task(formula, system), repeats),
     }
 
 
@@ -121,4 +140,24 @@ def _format_measured(measured: Sequence[Mapping[str, Any]], repeats: int, rounds
         "  solve   round 1 by Algorithm 1 in one place, candidates given\n"
         "  own     an agent's own computing per round, in the simulation\n"
         "  rounds  the whole simulation in one process"
+    )
+
+
+def _format_planning(measured: Sequence[Mapping[str, Any]]) -> str:
+    rows = [
+        (
+            own["problem"],
+            str(own["product_states"]),
+            str(own["product_edges"]),
+            format_number(1e3 * own["system_s"]),
+            format_number(1e3 * own["plan_s"]),
+        )
+        for own in measured
+    ]
+    header = ("planning", "states", "edges", "system/ms", "plan/ms")
+    return (
+        f"{format_table(header, rows)}\n\n"
+        "  states  of the product, and its edges\n"
+        "  system  the transition system, with all of the workspace's legs\n"
+        "  plan    automaton, product and search"
     )

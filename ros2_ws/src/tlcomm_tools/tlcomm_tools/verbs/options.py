@@ -2,7 +2,8 @@
 
 ``add_mission_arguments``  what is run, how long, and where to
 ``add_pace_argument``      how simulated time goes on
-``positive_int``, ``not_negative_int``, ``positive_float``, ``pace``, ``method``   types
+``positive_int``, ``not_negative_int``, ``positive_float``, ``positive_fraction``   types
+``pace``, ``method``       more types
 ``mission_end``            how long to run
 ``print_json``             one document on standard output
 """
@@ -11,6 +12,7 @@ import argparse
 import json
 import math
 from collections.abc import Mapping
+from fractions import Fraction
 from pathlib import Path
 from typing import Any, Final
 
@@ -28,6 +30,7 @@ __all__ = [
     "not_negative_int",
     "pace",
     "positive_float",
+    "positive_fraction",
     "positive_int",
     "print_json",
 ]
@@ -37,6 +40,8 @@ METHODS: Final = ("team",)
 SOLVERS: Final = ("best-response",)
 _LATER_METHODS: Final = ("static", "pairwise", "all-time")
 _DEFAULT_ROUNDS: Final = 5
+_LEAST_FRACTION: Final = Fraction(1, 10**9)
+_MOST_FRACTION: Final = Fraction(10**9)
 
 
 def positive_int(text: str) -> int:
@@ -60,6 +65,21 @@ def positive_float(text: str) -> float:
     value = _number(text)
     if value is None:
         raise argparse.ArgumentTypeError(f"expected a number greater than 0, not {text!r}")
+    return value
+
+
+def positive_fraction(text: str) -> Fraction:
+    """Read a number or a ratio from 1e-9 to 1e9, exactly."""
+    try:
+        # A float first: exactly, the number 1e-999999999 would fill the memory.
+        is_fine = "/" in text or _LEAST_FRACTION <= float(text) <= _MOST_FRACTION
+        value = Fraction(text) if is_fine else Fraction(0)
+    except (ValueError, ZeroDivisionError):
+        value = Fraction(0)
+    if not _LEAST_FRACTION <= value <= _MOST_FRACTION:
+        raise argparse.ArgumentTypeError(
+            f"expected a number or a ratio from 1e-9 to 1e9, not {text!r}"
+        )
     return value
 
 

@@ -1,30 +1,41 @@
 """Show each agent's local plan: prefix, suffix, and what they take."""
 
+import textwrap
 import time
 from argparse import ArgumentParser, Namespace
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
 from tlcomm_core.agent.member import local_plan
 from tlcomm_core.errors import InputError
+from tlcomm_core.planning.lasso import Objective
 from tlcomm_core.planning.plan import PlanStep
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.workspace.travel import TravelTimes
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_table
-from tlcomm_tools.verbs.options import print_json
+from tlcomm_tools.verbs.options import positive_fraction, print_json
 
 __all__ = ["EXAMPLE", "add_arguments", "run"]
 
 EXAMPLE: Final = "tlcomm plan scenarios/plant.yaml --agent agent_1"
+
+_WIDTH: Final = 80
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the verb's arguments."""
     parser.add_argument("scenario", type=Path, metavar="SCENARIO", help="a scenario file (YAML)")
     parser.add_argument("--agent", metavar="NAME", help="only this agent's")
+    parser.add_argument(
+        "--gamma",
+        type=positive_fraction,
+        metavar="G",
+        help="minimise the first satisfaction's time + G × the suffix's "
+        "(default: the suffix's time, then the first satisfaction's)",
+    )
 
 
 def run(options: Namespace) -> Status:
@@ -37,7 +48,8 @@ def run(options: Namespace) -> Status:
             known = ", ".join(names)
             raise InputError(f"--agent: no agent {options.agent!r} (the agents are {known})")
         names = [options.agent]
-    plans = {name: _plan(name, site) for name in names}
+    objective = Objective(options.gamma)
+    plans = {name: _plan(name, site, objective) for name in names}
     if options.json:
         print_json({"format": "tlcomm-plan/1", "scenario": scenario.name, "agents": plans})
     else:
@@ -45,16 +57,23 @@ def run(options: Namespace) -> Status:
     return Status.FINE
 
 
-def _plan(name: str, site: Site) -> dict[str, Any]:
+def _plan(name: str, site: Site, objective: Objective) -> dict[str, Any]:
     begun_s = time.perf_counter()
-    plan = local_plan(name, site, TravelTimes(site.grid, site.motion_of(name)))
+    travel = TravelTimes(site.grid, site.motion_of(name))
+    plan = local_plan(name, site, travel, objective)
+    planning_wall_s = time.perf_counter() - begun_s
+    stem, loop = plan.word
     return {
         "task": site.scenario.agents[name].task,
         "prefix": [_step(step, site) for step in plan.prefix],
         "suffix": [_step(step, site) for step in plan.suffix],
         "prefix_s": plan.prefix_s,
         "suffix_s": plan.suffix_s,
-        "planning_wall_s": time.perf_counter() - begun_s,
+        "first_s": plan.first_s,
+        "prefix_m": plan.prefix_m,
+        "suffix_m": plan.suffix_m,
+        "word": {"stem": list(map(sorted, stem)), "loop": list(map(sorted, loop))},
+        "planning_wall_s": planning_wall_s,
     }
 
 
@@ -86,7 +105,25 @@ def _format_plan(name: str, plan: Mapping[str, Any]) -> str:
     header = ("step", "part", "region", "action", "at/m", "stays/s", "task")
     return (
         f"{name}: {plan['task']}\n"
-        f"  prefix {plan['prefix_s']:.2f} s, suffix {plan['suffix_s']:.2f} s; "
+        f"  prefix {plan['prefix_s']:.2f} s and {plan['prefix_m']:.2f} m, "
+        f"suffix {plan['suffix_s']:.2f} s and {plan['suffix_m']:.2f} m\n"
+        f"  satisfied first at {plan['first_s']:.2f} s; "
         f"planned in {1e3 * plan['planning_wall_s']:.0f} ms\n"
-        f"{format_table(header, rows, left=5)}"
+        f"{format_table(header, rows, left=5)}\n"
+        f"{_format_word(plan['word'])}"
+    )
+
+
+def _format_word(word: Mapping[str, Sequence[Sequence[str]]]) -> str:
+    """Return the word, its letters in braces, within the width of a terminal."""
+    stem, loop = (
+        " ".join("{" + ", ".join(letter) + "}" for letter in word[part])
+        for part in ("stem", "loop")
+    )
+    return textwrap.fill(
+        f"{stem} ({loop})^ω",
+        width=_WIDTH,
+        initial_indent="  word  ",
+        subsequent_indent=" " * 8,
+        break_long_words=False,
     )
