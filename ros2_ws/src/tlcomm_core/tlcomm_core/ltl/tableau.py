@@ -10,9 +10,10 @@ never fulfilled is postponed for ever, and its mark isn't seen again.
 from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction, Transition
 from tlcomm_core.ltl.expansion import Expansion
 from tlcomm_core.ltl.formula import Formula, atoms
+from tlcomm_core.ltl.graph import Edge, Graph, check_size
 from tlcomm_core.ltl.guard import Cube, simplified
-from tlcomm_core.ltl.normal_form import negation_normal_form
-from tlcomm_core.ltl.reduction import Edge, Graph, degeneralized, reduced
+from tlcomm_core.ltl.reduction import degeneralized, reduced
+from tlcomm_core.ltl.rewriting import rewritten
 
 __all__ = ["tableau_automaton"]
 
@@ -22,12 +23,15 @@ def tableau_automaton(formula: Formula) -> BuchiAutomaton:
 
     Every state but the initial one of an unsatisfiable formula lies on an accepting run.
 
+    Raises:
+        IntractableTaskError: it would be too large.
     Source: Gerth, Peled, Vardi and Wolper, "Simple on-the-fly automatic verification of linear
     temporal logic", 1995; acceptance on transitions as in Couvreur, "On-the-fly verification of
     linear temporal logic", 1999.
-    Cost: exponential in the formula in the worst case, as the problem is.
+    Cost: exponential in the formula in the worst case, as the problem is; but no more than
+        ``MAX_STEPS`` steps of expansion and ``MAX_STATES`` states with ``MAX_EDGES`` edges.
     """
-    expansion = Expansion(negation_normal_form(formula))
+    expansion = Expansion(rewritten(formula))
     graph = reduced(degeneralized(reduced(_explored(expansion))))
     rows = tuple(_transitions(expansion, row) for row in graph.rows)
     return BuchiAutomaton(atoms(formula), 0, rows, Construction.TABLEAU)
@@ -40,6 +44,7 @@ def _explored(expansion: Expansion) -> Graph:
     number = {expansion.start: 0}
     pending = [expansion.start]
     found: list[list[tuple[int, int, int]]] = []
+    edges = 0
     for obligations in pending:
         row = []
         for term in expansion.terms(obligations):
@@ -49,6 +54,8 @@ def _explored(expansion: Expansion) -> Graph:
                 pending.append(rest)
             row.append((expansion.literals(term), number[rest], expansion.postponed(term)))
         found.append(row)
+        edges += len(row)
+        check_size(len(number), edges)
     return _marked(found)
 
 
