@@ -39,14 +39,18 @@ class Expansion:
         start: the obligations of the formula itself; None if it is the constant false.
     """
 
-    def __init__(self, formula: Formula) -> None:
+    def __init__(self, formula: Formula, names: tuple[str, ...] = ()) -> None:
         """Number the subformulas and expand each.
+
+        Args:
+            formula: in negation normal form.
+            names: atoms to number first, so that several expansions agree.
 
         Raises:
             IntractableTaskError: that takes more than ``MAX_STEPS``.
         """
         self._steps = 0
-        self.atoms = atoms(formula)
+        self.atoms = tuple(dict.fromkeys([*names, *atoms(formula)]))
         self._order = tuple(subformulas(formula))
         self._place = {node: index for index, node in enumerate(self._order)}
         self._atom_place = {name: index for index, name in enumerate(self.atoms)}

@@ -12,6 +12,7 @@ from tlcomm_core.ltl.expansion import Expansion
 from tlcomm_core.ltl.formula import Formula, atoms
 from tlcomm_core.ltl.graph import Edge, Graph, check_size
 from tlcomm_core.ltl.guard import Cube, simplified
+from tlcomm_core.ltl.recurrence import joined, separated
 from tlcomm_core.ltl.reduction import degeneralized, reduced
 from tlcomm_core.ltl.rewriting import rewritten
 
@@ -31,10 +32,21 @@ def tableau_automaton(formula: Formula) -> BuchiAutomaton:
     Cost: exponential in the formula in the worst case, as the problem is; but no more than
         ``MAX_STEPS`` steps of expansion and ``MAX_STATES`` states with ``MAX_EDGES`` edges.
     """
-    expansion = Expansion(rewritten(formula))
+    parts = separated(rewritten(formula))
+    names = atoms(formula)
+    expansion = Expansion(parts.rest, names)
     graph = reduced(degeneralized(reduced(_explored(expansion))))
+    if parts.targets:
+        graph = reduced(joined(graph, tuple(_cubes(target, names) for target in parts.targets)))
     rows = tuple(_transitions(expansion, row) for row in graph.rows)
-    return BuchiAutomaton(atoms(formula), 0, rows, Construction.TABLEAU)
+    return BuchiAutomaton(names, 0, rows, Construction.TABLEAU)
+
+
+def _cubes(timeless: Formula, names: tuple[str, ...]) -> tuple[int, ...]:
+    """Return the literals of the cubes of a formula without operators of time."""
+    expansion = Expansion(timeless, names)
+    assert expansion.start is not None
+    return tuple(expansion.literals(term) for term in expansion.terms(expansion.start))
 
 
 def _explored(expansion: Expansion) -> Graph:
