@@ -4,13 +4,14 @@
 - ``ETESSAMI_HOLZMANN``  12 formulas
 - ``SOMENZI_BLOEM``      27 formulas
 - ``random_formula``     a formula with a bounded depth
+- ``without_next``       random formulas for tools that lack X
 """
 
 from collections.abc import Sequence
 from random import Random
 from typing import Final
 
-__all__ = ["DWYER", "ETESSAMI_HOLZMANN", "SOMENZI_BLOEM", "random_formula"]
+__all__ = ["DWYER", "ETESSAMI_HOLZMANN", "SOMENZI_BLOEM", "random_formula", "without_next"]
 
 _TWICE: Final = (
     "((!p & !r) U (r | ((p & !r) U (r | ((!p & !r) U (r | ((p & !r) U (r | {last}))))))))"
@@ -156,3 +157,12 @@ def random_formula(
         return f"{rng.choice(unary)}({random_formula(rng, depth - 1, names, unary)})"
     left, right = (random_formula(rng, depth - 1, names, unary) for _ in range(2))
     return f"({left}) {rng.choice(_BINARY)} ({right})"
+
+
+def without_next(count: int) -> tuple[str, ...]:
+    """Return different random formulas of depth 3 over three atoms, for tools without X."""
+    rng = Random(3)  # noqa: S311  nothing secret
+    found: dict[str, None] = {}
+    while len(found) < count:
+        found[random_formula(rng, 3, "abc", ("!", "F ", "G "))] = None
+    return tuple(found)
