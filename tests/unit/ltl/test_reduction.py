@@ -1,6 +1,7 @@
 """Smaller graphs: useless states, equal states, one mark."""
 
-from tlcomm_core.ltl.reduction import Edge, Graph, degeneralized, reduced
+from tlcomm_core.ltl.graph import Edge, Graph
+from tlcomm_core.ltl.reduction import degeneralized, reduced
 
 IF_A, IF_NOT_A = 0b01, 0b10
 

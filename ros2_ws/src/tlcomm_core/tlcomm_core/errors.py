@@ -5,6 +5,7 @@
 │   ├── ``ScenarioError``     a scenario or map file
 │   └── ``FormulaError``      a formula's text
 ├── ``PlanningError``         the input is well-formed but no plan exists (exit status 2)
+│   ├── ``IntractableTaskError``     the formula's automaton is too large
 │   ├── ``UnsatisfiableTaskError``   no word at all satisfies the formula
 │   └── ``UnreachableTaskError``     words exist, but the agent can't produce one
 ├── ``InfeasibleRoundError``  no admissible meeting exists in the window
@@ -17,6 +18,7 @@ __all__ = [
     "FormulaError",
     "InfeasibleRoundError",
     "InputError",
+    "IntractableTaskError",
     "LocalMisuseError",
     "PlanningError",
     "ScenarioError",
@@ -55,6 +57,10 @@ class FormulaError(InputError):
 
 class PlanningError(TlcommError):
     """A well-formed task has no plan."""
+
+
+class IntractableTaskError(PlanningError):
+    """The formula's automaton is larger than the stated limits, so it isn't built."""
 
 
 class UnsatisfiableTaskError(PlanningError):

@@ -2,6 +2,7 @@
 
 - ``Expansion``   the expansion rules over one formula's subformulas
 - ``antichain``   the sets among some that contain no other
+- ``MAX_STEPS``   how much work an expansion does before it gives up
 
 A conjunction of formulas is equivalent to a disjunction of *terms*: literals that the present
 letter must satisfy, obligations that the rest of the word must satisfy, and the eventualities that
@@ -9,14 +10,17 @@ are thereby postponed rather than fulfilled. Everything is a bit set in one Pyth
 joining two terms is ``|``, and one demands no more than another if ``one & other == one``.
 """
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import Final
 
-from tlcomm_core.errors import LocalMisuseError
+from tlcomm_core.errors import IntractableTaskError, LocalMisuseError
 from tlcomm_core.ltl.formula import FALSE, TRUE, Formula, Operator, atoms, subformulas
 from tlcomm_core.ltl.guard import Cube
 
-__all__ = ["Expansion", "antichain"]
+__all__ = ["MAX_STEPS", "Expansion", "antichain"]
+
+# Joined or compared terms during the whole translation of one formula.
+MAX_STEPS: Final = 40_000_000
 
 _EVENTUALITIES: Final = frozenset(
     {Operator.EVENTUALLY, Operator.UNTIL, Operator.STRONG_RELEASE},
@@ -35,9 +39,18 @@ class Expansion:
         start: the obligations of the formula itself; None if it is the constant false.
     """
 
-    def __init__(self, formula: Formula) -> None:
-        """Number the subformulas and expand each."""
-        self.atoms = atoms(formula)
+    def __init__(self, formula: Formula, names: tuple[str, ...] = ()) -> None:
+        """Number the subformulas and expand each.
+
+        Args:
+            formula: in negation normal form.
+            names: atoms to number first, so that several expansions agree.
+
+        Raises:
+            IntractableTaskError: that takes more than ``MAX_STEPS``.
+        """
+        self._steps = 0
+        self.atoms = tuple(dict.fromkeys([*names, *atoms(formula)]))
         self._order = tuple(subformulas(formula))
         self._place = {node: index for index, node in enumerate(self._order)}
         self._atom_place = {name: index for index, name in enumerate(self.atoms)}
@@ -55,8 +68,25 @@ class Expansion:
             self._terms[node] = self._expand(node)
         self.start = self._pieces[formula]
 
+    def spend(self, steps: int) -> None:
+        """Count steps of work.
+
+        Raises:
+            IntractableTaskError: there have been more than ``MAX_STEPS``.
+        """
+        self._steps += steps
+        if self._steps > MAX_STEPS:
+            raise IntractableTaskError(
+                f"the formula's automaton needs more than {MAX_STEPS} steps of expansion;"
+                " split the task or leave out alternatives"
+            )
+
     def terms(self, obligations: int) -> tuple[int, ...]:
-        """Return the terms whose disjunction is equivalent to the conjunction of a set."""
+        """Return the terms whose disjunction is equivalent to the conjunction of a set.
+
+        Raises:
+            IntractableTaskError: the work of this expansion exceeds ``MAX_STEPS``.
+        """
         found = self._set_terms.get(obligations)
         if found is None:
             members = [self._terms[self._order[place]] for place in _bits(obligations)]
@@ -153,27 +183,33 @@ class Expansion:
     ) -> tuple[int, ...]:
         if operator is Operator.AND:
             return self._product(left, right)
-        return antichain([*left, *right])
+        return self._antichain([*left, *right])
 
     def _unfold(self, node: Formula, parts: list[tuple[int, ...]]) -> tuple[int, ...]:
         """Expand a formula that may have to hold again later by its fixpoint equation."""
         again = self._again(node)
         match node.operator:
             case Operator.EVENTUALLY:
-                return antichain([*parts[0], *again])
+                return self._antichain([*parts[0], *again])
             case Operator.ALWAYS:
                 return self._product(parts[0], again)
             case Operator.UNTIL | Operator.WEAK_UNTIL:
-                return antichain([*parts[1], *self._product(parts[0], again)])
+                return self._antichain([*parts[1], *self._product(parts[0], again)])
             case Operator.RELEASE | Operator.STRONG_RELEASE:
-                return self._product(parts[1], antichain([*parts[0], *again]))
+                return self._product(parts[1], self._antichain([*parts[0], *again]))
             case _:
                 message = f"{node!r} isn't in negation normal form"
                 raise LocalMisuseError(message)
 
     def _product(self, left: tuple[int, ...], right: tuple[int, ...]) -> tuple[int, ...]:
+        self.spend(len(left) * len(right))
         joined = {one | other for one in left for other in right}
-        return antichain(self._normal(term) for term in joined if self._is_consistent(term))
+        terms = {self._normal(term) for term in joined if self._is_consistent(term)}
+        return self._antichain(terms)
+
+    def _antichain(self, terms: Collection[int]) -> tuple[int, ...]:
+        self.spend(len(terms) ** 2 // 2)
+        return antichain(terms)
 
     def _is_consistent(self, term: int) -> bool:
         return not term & (term >> 1) & self._required

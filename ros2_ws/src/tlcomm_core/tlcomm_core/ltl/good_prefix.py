@@ -16,6 +16,7 @@ from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction, Transition
 from tlcomm_core.ltl.decision_diagram import DecisionDiagrams
 from tlcomm_core.ltl.expansion import Expansion, antichain
 from tlcomm_core.ltl.formula import Formula, Operator, atoms
+from tlcomm_core.ltl.graph import check_size
 from tlcomm_core.ltl.guard import Cube, simplified
 from tlcomm_core.ltl.normal_form import is_co_safe, negation_normal_form
 
@@ -63,6 +64,7 @@ def good_prefix_automaton(formula: Formula) -> GoodPrefixAutomaton:
 
     Raises:
         LocalMisuseError: the formula isn't syntactically co-safe.
+        IntractableTaskError: the automaton would be too large.
     Source: Bacchus and Kabanza, "Using temporal logics to express search control knowledge for
         planning", 2000 (progression); Kupferman and Vardi, "Model checking of safety properties",
         2001 (good prefixes); Moore, 1956 (merging).
@@ -96,6 +98,7 @@ def restarted(formula: Formula) -> BuchiAutomaton:
 
     Raises:
         LocalMisuseError: φ isn't syntactically co-safe.
+        IntractableTaskError: the automaton would be too large.
     Source: the class □◇φ^s of Section III-A.
     Cost: that of ``good_prefix_automaton``.
     """
@@ -146,9 +149,11 @@ class _Determinization:
     def _successor(self, left: tuple[int, ...]) -> int:
         """Return the diagram from letters to the number of the state that they lead to."""
         expansion = self._expansion
-        terms = antichain(
+        demands = {
             expansion.demands(term) for obligations in left for term in expansion.terms(obligations)
-        )
+        }
+        expansion.spend(len(demands) ** 2 // 2)
+        terms = antichain(demands)
         rules = {(expansion.literals(term), expansion.obligations(term)) for term in terms}
         return self._diagram(frozenset(rules))
 
@@ -179,6 +184,7 @@ class _Determinization:
         if left not in self._number:
             self._number[left] = len(self._left)
             self._left.append(left)
+            check_size(len(self._left), 0)
         return self._diagrams.leaf(self._number[left])
 
     def _settled(self, roots: list[int]) -> set[int]:

@@ -10,9 +10,11 @@ never fulfilled is postponed for ever, and its mark isn't seen again.
 from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction, Transition
 from tlcomm_core.ltl.expansion import Expansion
 from tlcomm_core.ltl.formula import Formula, atoms
+from tlcomm_core.ltl.graph import Edge, Graph, check_size
 from tlcomm_core.ltl.guard import Cube, simplified
-from tlcomm_core.ltl.normal_form import negation_normal_form
-from tlcomm_core.ltl.reduction import Edge, Graph, degeneralized, reduced
+from tlcomm_core.ltl.recurrence import joined, separated
+from tlcomm_core.ltl.reduction import degeneralized, reduced
+from tlcomm_core.ltl.rewriting import rewritten
 
 __all__ = ["tableau_automaton"]
 
@@ -22,15 +24,29 @@ def tableau_automaton(formula: Formula) -> BuchiAutomaton:
 
     Every state but the initial one of an unsatisfiable formula lies on an accepting run.
 
+    Raises:
+        IntractableTaskError: it would be too large.
     Source: Gerth, Peled, Vardi and Wolper, "Simple on-the-fly automatic verification of linear
     temporal logic", 1995; acceptance on transitions as in Couvreur, "On-the-fly verification of
     linear temporal logic", 1999.
-    Cost: exponential in the formula in the worst case, as the problem is.
+    Cost: exponential in the formula in the worst case, as the problem is; but no more than
+        ``MAX_STEPS`` steps of expansion and ``MAX_STATES`` states with ``MAX_EDGES`` edges.
     """
-    expansion = Expansion(negation_normal_form(formula))
+    parts = separated(rewritten(formula))
+    names = atoms(formula)
+    expansion = Expansion(parts.rest, names)
     graph = reduced(degeneralized(reduced(_explored(expansion))))
+    if parts.targets:
+        graph = reduced(joined(graph, tuple(_cubes(target, names) for target in parts.targets)))
     rows = tuple(_transitions(expansion, row) for row in graph.rows)
-    return BuchiAutomaton(atoms(formula), 0, rows, Construction.TABLEAU)
+    return BuchiAutomaton(names, 0, rows, Construction.TABLEAU)
+
+
+def _cubes(timeless: Formula, names: tuple[str, ...]) -> tuple[int, ...]:
+    """Return the literals of the cubes of a formula without operators of time."""
+    expansion = Expansion(timeless, names)
+    assert expansion.start is not None
+    return tuple(expansion.literals(term) for term in expansion.terms(expansion.start))
 
 
 def _explored(expansion: Expansion) -> Graph:
@@ -40,6 +56,7 @@ def _explored(expansion: Expansion) -> Graph:
     number = {expansion.start: 0}
     pending = [expansion.start]
     found: list[list[tuple[int, int, int]]] = []
+    edges = 0
     for obligations in pending:
         row = []
         for term in expansion.terms(obligations):
@@ -49,6 +66,8 @@ def _explored(expansion: Expansion) -> Graph:
                 pending.append(rest)
             row.append((expansion.literals(term), number[rest], expansion.postponed(term)))
         found.append(row)
+        edges += len(row)
+        check_size(len(number), edges)
     return _marked(found)
 
 

@@ -1,0 +1,92 @@
+"""The literature's formulas, and deep random ones, against the direct semantics."""
+
+from random import Random
+
+import pytest
+
+from support.lasso_semantics import holds
+from support.ltl_benchmarks import (
+    DWYER,
+    ETESSAMI_HOLZMANN,
+    SOMENZI_BLOEM,
+    random_formula,
+    without_next,
+)
+from tlcomm_core.ltl import BuchiAutomaton, atoms, parse, tableau_automaton
+from tlcomm_core.ltl.automaton import strong_components
+
+LITERATURE = (*DWYER, *ETESSAMI_HOLZMANN, *SOMENZI_BLOEM)
+Word = tuple[frozenset[str], ...]
+
+
+def random_word(rng: Random, names: tuple[str, ...]) -> Word:
+    """Return up to five letters."""
+    return tuple(
+        frozenset(name for name in names if rng.random() < 0.5) for _ in range(rng.randint(1, 5))
+    )
+
+
+def accepts(automaton: BuchiAutomaton, stem: Word, loop: Word) -> bool:
+    """Return whether an accepting edge lies on a cycle of the product with stem·loop^ω."""
+    word = [*stem, *loop]
+    number = {(automaton.initial, 0): 0}
+    pending = [(automaton.initial, 0)]
+    rows: list[list[tuple[int, bool]]] = []
+    for state, place in pending:
+        after = place + 1 if place + 1 < len(word) else len(stem)
+        rows.append([])
+        for target, accepting in automaton.successors(state, word[place]):
+            node = (target, after)
+            if node not in number:
+                number[node] = len(number)
+                pending.append(node)
+            rows[-1].append((number[node], accepting))
+    component = strong_components([[target for target, _ in row] for row in rows])
+    return any(
+        accepting and component[node] == component[target]
+        for node, row in enumerate(rows)
+        for target, accepting in row
+    )
+
+
+def assert_means(text: str, rng: Random, words: int) -> None:
+    """Compare the automata of a formula and of its negation with the semantics."""
+    formula = parse(text)
+    automaton, opposite = tableau_automaton(formula), tableau_automaton(parse(f"!({text})"))
+    names = atoms(formula)
+    for _ in range(words):
+        stem, loop = random_word(rng, names), random_word(rng, names)
+        expected = holds(formula, stem, loop)
+        assert accepts(automaton, stem, loop) is expected, (text, stem, loop)
+        assert accepts(opposite, stem, loop) is not expected, (text, stem, loop)
+
+
+@pytest.mark.parametrize("text", LITERATURE)
+def test_the_literatures_formulas_mean_what_they_say(text: str) -> None:
+    """On 20 words each, automaton and negation's automaton agree with the semantics."""
+    assert_means(text, Random(text), 20)  # noqa: S311  nothing secret
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_deep_random_formulas_mean_what_they_say(seed: int) -> None:
+    """On 8 words each, 20 formulas up to depth 5 over 4 atoms agree with the semantics."""
+    rng = Random(seed)  # noqa: S311  nothing secret
+    for _ in range(20):
+        assert_means(random_formula(rng, 5), rng, 8)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_recurrences_beside_other_formulas_mean_what_they_say(seed: int) -> None:
+    """Formulas with six conjuncts G F β, which bypass the tableau, agree with the semantics."""
+    rng = Random(100 + seed)  # noqa: S311  nothing secret
+    targets = ("a", "!a", "b | c", "b & !c", "!b", "c", "d", "!d | a")
+    for _ in range(10):
+        terms = " & ".join(f"G F ({target})" for target in rng.sample(targets, 6))
+        assert_means(f"({random_formula(rng, 3)}) & {terms}", rng, 20)
+
+
+def test_the_sets_are_complete() -> None:
+    """There are 55, 12 and 27 formulas, and the random ones are as many as asked for."""
+    assert [len(DWYER), len(ETESSAMI_HOLZMANN), len(SOMENZI_BLOEM)] == [55, 12, 27]
+    assert len(set(LITERATURE)) == len(LITERATURE)
+    assert len(set(without_next(200))) == 200
