@@ -6,10 +6,14 @@
 - ``translate``                   the Büchi automaton that planning uses
 - ``restarted``, ``good_prefix_automaton``, ``tableau_automaton``   its constructions
 - ``BuchiAutomaton``, ``GoodPrefixAutomaton``, ``Construction``, ``Transition``, ``Guard``, ``Cube``
+- ``conflict``, ``conjuncts``     which parts of a formula exclude each other
+- ``Monitor``, ``Verdict``        what a finite part of a word says about a formula
+- ``LassoWord``, ``accepted_word``   endless words as proof
 - ``to_hoa``, ``to_dot``          for other tools
 """
 
 from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction, Transition
+from tlcomm_core.ltl.conflict import conflict, conjunction, conjuncts, smallest_conflict
 from tlcomm_core.ltl.dot import to_dot
 from tlcomm_core.ltl.formula import (
     FALSE,
@@ -24,10 +28,12 @@ from tlcomm_core.ltl.formula import (
 from tlcomm_core.ltl.good_prefix import GoodPrefixAutomaton, good_prefix_automaton, restarted
 from tlcomm_core.ltl.guard import Cube, Guard
 from tlcomm_core.ltl.hoa import to_hoa
+from tlcomm_core.ltl.monitor import Monitor, Verdict
 from tlcomm_core.ltl.normal_form import is_co_safe, negation_normal_form, recurring
 from tlcomm_core.ltl.parser import MAX_LENGTH, MAX_NESTING, explain, parse
 from tlcomm_core.ltl.tableau import tableau_automaton
 from tlcomm_core.ltl.translation import translate
+from tlcomm_core.ltl.word import LassoWord, accepted_word, word_text
 
 __all__ = [
     "FALSE",
@@ -40,10 +46,17 @@ __all__ = [
     "Formula",
     "GoodPrefixAutomaton",
     "Guard",
+    "LassoWord",
+    "Monitor",
     "Operator",
     "Transition",
+    "Verdict",
+    "accepted_word",
     "atom",
     "atoms",
+    "conflict",
+    "conjunction",
+    "conjuncts",
     "explain",
     "good_prefix_automaton",
     "is_co_safe",
@@ -51,10 +64,12 @@ __all__ = [
     "parse",
     "recurring",
     "restarted",
+    "smallest_conflict",
     "subformulas",
     "tableau_automaton",
     "to_dot",
     "to_hoa",
     "to_text",
     "translate",
+    "word_text",
 ]

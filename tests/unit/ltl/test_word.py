@@ -1,0 +1,37 @@
+"""Words that an automaton accepts."""
+
+import pytest
+
+from support.lasso_semantics import holds
+from tlcomm_core.ltl import LassoWord, accepted_word, parse, tableau_automaton, word_text
+from tlcomm_core.ltl.word import live_states
+
+
+@pytest.mark.parametrize(
+    "text", ["G F a & G F b", "a & X (b & X c)", "F G !a & F a", "a U (b U c)", "true", "!a & G b"]
+)
+def test_the_word_satisfies_the_formula(text: str) -> None:
+    """By LTL's direct semantics."""
+    word = accepted_word(tableau_automaton(parse(text)))
+    assert word is not None
+    assert holds(parse(text), word.stem, word.loop)
+
+
+def test_an_empty_automaton_accepts_no_word() -> None:
+    """Nor has it a state from which one is accepted."""
+    automaton = tableau_automaton(parse("G a & F !a"))
+    assert accepted_word(automaton) is None
+    assert live_states(automaton) == frozenset()
+
+
+def test_the_shortest_word_comes_with_few_atoms() -> None:
+    """Two letters of which the second repeats; what may be false is."""
+    word = accepted_word(tableau_automaton(parse("a & X G b & (c | true)")))
+    assert word == LassoWord((frozenset("a"),), (frozenset("b"),))
+
+
+def test_words_are_readable() -> None:
+    """Letters by semicolons, the loop marked."""
+    assert word_text([frozenset("ba"), frozenset()]) == "a & b ; –"
+    assert str(LassoWord((), (frozenset("a"),))) == "(a) for ever"
+    assert str(LassoWord((frozenset(),), (frozenset("a"),))) == "– ; (a) for ever"
