@@ -3,7 +3,7 @@
 import pytest
 
 from support.lasso_semantics import holds
-from tlcomm_core.ltl import LassoWord, accepted_word, parse, tableau_automaton, word_text
+from tlcomm_core.ltl import LassoWord, accepted_word, parse, read_hoa, tableau_automaton, word_text
 from tlcomm_core.ltl.word import live_states
 
 
@@ -35,3 +35,11 @@ def test_words_are_readable() -> None:
     assert word_text([frozenset("ba"), frozenset()]) == "a & b ; –"
     assert str(LassoWord((), (frozenset("a"),))) == "(a) for ever"
     assert str(LassoWord((frozenset(),), (frozenset("a"),))) == "– ; (a) for ever"
+
+
+def test_an_accepting_edge_on_no_cycle_is_passed_by() -> None:
+    """Only what can be taken again and again makes a loop."""
+    text = 'HOA: v1 Start: 0 AP: 1 "a" Acceptance: 1 Inf(0) --BODY-- '
+    rows = "State: 0 [t] 1 {0} State: 1 [t] 1 [0] 2 State: 2 [!0] 2 {0} --END--"
+    word = accepted_word(read_hoa(text + rows))
+    assert word == LassoWord((frozenset(), frozenset("a")), (frozenset(),))

@@ -10,6 +10,7 @@
 - ``Monitor``, ``Verdict``        what a finite part of a word says about a formula
 - ``LassoWord``, ``accepted_word``   endless words as proof
 - ``to_hoa``, ``to_dot``          for other tools
+- ``read_hoa``                    from other tools
 """
 
 from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction, Transition
@@ -28,6 +29,7 @@ from tlcomm_core.ltl.formula import (
 from tlcomm_core.ltl.good_prefix import GoodPrefixAutomaton, good_prefix_automaton, restarted
 from tlcomm_core.ltl.guard import Cube, Guard
 from tlcomm_core.ltl.hoa import to_hoa
+from tlcomm_core.ltl.hoa_reader import read_hoa
 from tlcomm_core.ltl.monitor import Monitor, Verdict
 from tlcomm_core.ltl.normal_form import is_co_safe, negation_normal_form, recurring
 from tlcomm_core.ltl.parser import MAX_LENGTH, MAX_NESTING, explain, parse
@@ -62,6 +64,7 @@ __all__ = [
     "is_co_safe",
     "negation_normal_form",
     "parse",
+    "read_hoa",
     "recurring",
     "restarted",
     "smallest_conflict",

@@ -25,6 +25,7 @@ class Construction(Enum):
 
     RESTARTED_GOOD_PREFIX = "restarted good-prefix automaton"
     TABLEAU = "tableau"
+    GIVEN = "given automaton"
 
 
 @dataclass(frozen=True, slots=True)
