@@ -177,3 +177,9 @@ def test_deep_and_wide_labels_are_read_or_refused() -> None:
     wide = " & ".join(f"({index} | {index + 1})" for index in range(0, 60, 2))
     with pytest.raises(InputError, match="at most 1000 cubes"):
         read_hoa(frame % wide)
+
+
+def test_a_text_that_is_too_long_is_refused() -> None:
+    """The limit is stated."""
+    with pytest.raises(InputError, match="2000014 characters, at most 2000000 are read"):
+        read_hoa("HOA: v1".ljust(2_000_014))

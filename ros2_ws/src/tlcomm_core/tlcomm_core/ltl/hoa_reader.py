@@ -176,6 +176,7 @@ class _BodyReader:
         self._header = header
         self._most = MAX_STATES if header.states is None else header.states
         self._rows: dict[int, list[_Edge]] = {}
+        self._guards: dict[Formula, Guard] = {}
         self._named: list[tuple[int, Token]] = []
 
     def read(self) -> list[list[_Edge]]:
@@ -239,9 +240,11 @@ class _BodyReader:
         token = cursor.next
         if not cursor.skip("["):
             return None
-        guard = letters_of(label(cursor, self._header.atoms, self._header.aliases), token)
+        formula = label(cursor, self._header.atoms, self._header.aliases)
         cursor.sign("]")
-        return guard
+        if formula not in self._guards:
+            self._guards[formula] = letters_of(formula, token)
+        return self._guards[formula]
 
     def _target(self) -> int:
         token = self._cursor.next
@@ -303,10 +306,17 @@ def _with_one_mark(
 
 def _joined(row: list[tuple[_Edge, int, bool]]) -> tuple[Transition, ...]:
     """Join the edges with the same target and acceptance into one guarded transition."""
-    cubes: dict[tuple[int, bool], list[Cube]] = {}
+    guards: dict[tuple[int, bool], list[Guard]] = {}
     for edge, target, accepting in row:
-        cubes.setdefault((target, accepting), []).extend(edge.guard.cubes)
+        guards.setdefault((target, accepting), []).append(edge.guard)
     return tuple(
-        Transition(simplified(group), target, accepting)
-        for (target, accepting), group in cubes.items()
+        Transition(_either(group), target, accepting)
+        for (target, accepting), group in guards.items()
     )
+
+
+def _either(guards: list[Guard]) -> Guard:
+    """Return the disjunction of guards that are each as simple as they get."""
+    if len(guards) == 1:
+        return guards[0]
+    return simplified(cube for guard in guards for cube in guard.cubes)

@@ -18,7 +18,7 @@ from tlcomm_core.ltl.normal_form import negation_normal_form
 
 __all__ = ["MAX_CUBES", "MAX_LENGTH", "Cursor", "Token", "label", "letters_of"]
 
-MAX_LENGTH: Final = 10_000_000
+MAX_LENGTH: Final = 2_000_000
 MAX_CUBES: Final = 1000
 _MAX_DIGITS: Final = 9
 
