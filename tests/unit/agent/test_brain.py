@@ -222,7 +222,9 @@ def test_an_offer_reaches_to_the_end_of_the_window(lone: LoneAgent, round_: int)
     departs_s = max(own.arrival_s, (round_ - 1) * PERIOD_S) + DURATION_S
     finishes_s = [departs_s + stop.finish_offset_s for stop in own.stops]
     assert finishes_s[-1] > (round_ + 1) * PERIOD_S >= finishes_s[-2]
-    done = [e.plan_index for t, e in lone.events if t <= own.arrival_s and e.kind is FINISHED]
+    done = [
+        e.plan_index for t, e in lone.events if t <= own.arrival_s and e.kind in {FINISHED, VISITED}
+    ]
     assert own.stops[0].task_index == (done[-1] + 1 if done else 0)
 
 
