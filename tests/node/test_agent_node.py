@@ -1,6 +1,7 @@
 """The agent's node, with a test in the place of sim and neighbours."""
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -37,9 +38,9 @@ def parameters(**values: object) -> list[Parameter]:
 class Surroundings:
     """An agent's node beside one that speaks for everybody else."""
 
-    def __init__(self, context: Context) -> None:
-        """Create both, and wait until they have found each other."""
-        self.agent = AgentNode(namespace=OWN, parameters=parameters(), context=context)
+    def __init__(self, context: Context, **values: object) -> None:
+        """Create both, and wait until they have found each other; ``values`` are parameters."""
+        self.agent = AgentNode(namespace=OWN, parameters=parameters(**values), context=context)
         self.node = Node("test", context=context, use_global_arguments=False)
         self.executor = SingleThreadedExecutor(context=context)
         self.executor.add_node(self.agent)
@@ -94,9 +95,10 @@ class Surroundings:
         start = Pose(*SCENARIO.agents[OWN].start).as_transmitted()
         self.odometry_pub.publish(encode_odometry(Odometry(0, OWN, start, 0.0, 0.0)))
 
-    def show_connectivity(self) -> None:
-        """Show that all are in range of all."""
-        edges = ((0, 1), (0, 2), (1, 2))
+    def show_connectivity(
+        self, edges: tuple[tuple[int, int], ...] = ((0, 1), (0, 2), (1, 2))
+    ) -> None:
+        """Show who is in range of whom, by default all of all."""
         self.connectivity_pub.publish(
             encode_connectivity(Connectivity(0, edges, connected=True), 1.0, NAMES)
         )
@@ -108,14 +110,27 @@ def response(**fields: object) -> msg.BestResponse:
     return msg.BestResponse(**{"sender": PEER, "candidate": PEER, "strategy": strategy, **fields})
 
 
-@pytest.fixture
-def surroundings(context: Context) -> Iterator[Surroundings]:
-    """Yield an agent with its surroundings."""
-    own = Surroundings(context)
+@contextmanager
+def living(own: Surroundings) -> Iterator[Surroundings]:
+    """Yield an agent with its surroundings, and take both down."""
     yield own
     own.executor.shutdown()
     own.agent.destroy_node()
     own.node.destroy_node()
+
+
+@pytest.fixture
+def surroundings(context: Context) -> Iterator[Surroundings]:
+    """Yield an agent in lock step with its surroundings."""
+    with living(Surroundings(context)) as own:
+        yield own
+
+
+@pytest.fixture
+def free(context: Context) -> Iterator[Surroundings]:
+    """Yield an agent that runs freely with its surroundings."""
+    with living(Surroundings(context, pace="1.0")) as own:
+        yield own
 
 
 @pytest.mark.parametrize("last", ["odometry", "connectivity", "message"])
@@ -141,6 +156,18 @@ def test_tick_waits_for_all_that_it_counts(surroundings: Surroundings, last: str
     assert answer.team_messages == len(surroundings.offers) == 1
     published = answer.team_messages + answer.commands + len(surroundings.events)
     assert answer.published == published
+
+
+def test_running_freely_it_takes_messages_of_those_in_range(free: Surroundings) -> None:
+    """What one says who is out of range waits untaken; in range, it is taken and looked at."""
+    free.show_connectivity(edges=((1, 2),))
+    free.settle()
+    free.response_pub.publish(response(sender="x"))
+    free.settle()
+    assert not free.agent.ignored
+    free.show_connectivity()
+    free.until(lambda: bool(free.agent.ignored))
+    assert "in the name of" in next(iter(free.agent.ignored))
 
 
 def test_sim_is_told_who_is_missing(surroundings: Surroundings) -> None:

@@ -12,6 +12,7 @@ from tlcomm_agent import wire
 from tlcomm_core.agent.actions import Drive, TaskEvent, TaskEventKind
 from tlcomm_core.game.offer import MAX_STOPS, MemberOffer, PlannedStop
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
+from tlcomm_core.protocol.actions import SendMessage
 from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
 from tlcomm_core.records import RoundTiming, StrategyRecord, TaskRecord
 from tlcomm_core.world.observation import Connectivity
@@ -60,7 +61,9 @@ def over_the_wire(message: RosMessage) -> RosMessage:
 def test_what_agents_say_survives(message: Message, stamp_ns: int) -> None:
     """Messages come back equal, to the last bit and nanosecond, on the topic of their type."""
     encoded = wire.encode_message(message, stamp_ns)
-    assert isinstance(encoded, wire.TEAM_TYPES[wire.team_topic(message)])
+    topic, same = wire.encode_action(SendMessage(message), "a", stamp_ns)
+    assert isinstance(encoded, wire.TEAM_TYPES[topic])
+    assert same == encoded
     assert wire.decode_message(over_the_wire(encoded)) == (message, stamp_ns)
 
 

@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import pytest
+from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import Clock, ROSClock
 from rclpy.clock_type import ClockType
 from rclpy.context import Context
@@ -32,6 +33,16 @@ def node_of(context: Context, name: str = "node") -> Node:
         start_parameter_services=False,
         parameter_overrides=[Parameter("start_type_description_service", value=False)],
     )
+
+
+class Refusing(ReentrantCallbackGroup):
+    """A callback group that refuses until told otherwise."""
+
+    refuses = True
+
+    def can_execute(self, entity: object) -> bool:
+        """Execute nothing while it refuses."""
+        return not self.refuses and super().can_execute(entity)
 
 
 @pytest.mark.parametrize("way", SPINS)
@@ -66,6 +77,49 @@ def test_raw_messages(context: Context, way: Spin) -> None:
     node.create_timer(0.01, lambda: publisher.publish(UInt64(data=7)), clock=STEADY)
     way(node, lambda: bool(heard))
     assert heard[0].endswith((7).to_bytes(8, "little"))
+
+
+@pytest.mark.parametrize("way", SPINS)
+def test_a_guard_condition_runs_when_triggered(context: Context, way: Spin) -> None:
+    """A callback may ask for another one; it runs after it, and not by itself."""
+    node = node_of(context)
+    calls: list[str] = []
+
+    def ask() -> None:
+        calls.append("asked")
+        guard.trigger()
+
+    guard = node.create_guard_condition(lambda: calls.append("ran"))
+    node.create_timer(0.01, ask, clock=STEADY)
+    way(node, lambda: calls.count("ran") == 3)
+    assert calls == 3 * ["asked", "ran"]
+
+
+@pytest.mark.parametrize("way", SPINS)
+def test_what_may_not_be_executed_waits(context: Context, way: Spin) -> None:
+    """Messages of a callback group that refuses stay where they are until it doesn't."""
+    node = node_of(context)
+    heard: list[int] = []
+    waited: list[int] = []
+    group = Refusing()
+    publisher = node.create_publisher(UInt64, "number", 10)
+    node.create_subscription(
+        UInt64, "number", lambda message: heard.append(message.data), 10, callback_group=group
+    )
+
+    def pass_time() -> None:
+        if not publisher.get_subscription_count():
+            return
+        if not waited:
+            for number in range(5):
+                publisher.publish(UInt64(data=number))
+        waited.append(len(heard))
+        group.refuses = len(waited) < 5
+
+    node.create_timer(0.01, pass_time, clock=STEADY)
+    way(node, lambda: len(heard) == 5)
+    assert heard == list(range(5))
+    assert waited[:5] == [0] * 5
 
 
 @pytest.mark.parametrize("way", SPINS)

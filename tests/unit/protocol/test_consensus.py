@@ -79,6 +79,19 @@ def test_no_exchange_ends_before_all_neighbours_are_heard(middle: MinimumConsens
     assert message == said("b", 0, 1, -3.0, by="c")
 
 
+def test_it_says_whose_word_it_waits_for(middle: MinimumConsensus) -> None:
+    """A neighbour that is missing in the exchange under way, the first by name."""
+    assert middle.awaited == "a"
+    middle.receive(said("a", 0, 1, -1.0))
+    assert middle.awaited == "a"
+    middle.receive(said("a", 0, 0, -1.0))
+    assert middle.awaited == "c"
+    middle.receive(said("c", 0, 0, -3.0))
+    assert middle.awaited is None
+    middle.advance()
+    assert middle.awaited == "c"
+
+
 def test_a_message_one_step_ahead_is_kept(middle: MinimumConsensus) -> None:
     """A neighbour that is one exchange ahead needn't repeat itself later."""
     assert middle.receive(said("a", 0, 1, -1.0)) is Reception.ACCEPTED

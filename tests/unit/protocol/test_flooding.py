@@ -35,6 +35,15 @@ def test_what_is_new_and_what_is_lacking_is_to_be_told() -> None:
     assert flood.is_complete
 
 
+def test_what_is_on_its_way_is_not_told_again() -> None:
+    """A sender that has just learned of more lacks what it will hear; one that repeats asks."""
+    flood = flood_of("a")
+    assert flood.learn("b", ["b"], {"b": "B"}) == {"a", "b"}
+    assert flood.learn("b", ["b", "c"], {"c": "C"}) == {"c"}
+    assert flood.learn("b", ["b", "c"], {"c": "C"}) == {"a"}
+    assert flood.learn("b", ["b"], {}) == {"a"}
+
+
 def test_hearing_the_same_twice_changes_nothing() -> None:
     """A repetition that shows nothing new, of a sender that lacks nothing, has no effect."""
     flood = flood_of("a")

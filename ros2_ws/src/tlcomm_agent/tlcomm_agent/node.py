@@ -1,21 +1,19 @@
 """One agent as a ROS 2 node: a thin shell around its brain and radio.
 
 ``main``       ``ros2 run tlcomm_agent agent --ros-args -r __ns:=/agent_1 -p scenario:=…``
-``run``        the process's whole life, for whoever supervises it
 ``AgentNode``  the node
 """
 
-import signal
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Sequence
-from typing import Any, Final, assert_never
+from collections.abc import Callable, Container, Sequence
+from typing import Any, Final
 
 import rclpy
-from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import ParameterDescriptor
+from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 from rclpy.context import Context
@@ -38,11 +36,12 @@ from tlcomm_core.units import nanoseconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_msgs import msg
 
-__all__ = ["AgentNode", "main", "run"]
-
-Spin = Callable[[Node, Callable[[], bool]], None]
+__all__ = ["AgentNode", "main"]
 
 _DEPTH: Final = 1000
+_COUNTED: Final = QoSProfile(depth=_DEPTH, reliability=ReliabilityPolicy.RELIABLE)
+# The protocol repeats what is lost, and needs no more than the last few of anybody's messages.
+_BY_RADIO: Final = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
 _HELD_STRATEGIES: Final = 10
 _READY_PERIOD_S: Final = 0.1
 _LEAVE_PERIOD_S: Final = 0.05
@@ -51,11 +50,27 @@ _STATUS_INPUT: Final = 2
 _STATUS_BROKEN: Final = 3
 
 
+class _Hearing(ReentrantCallbackGroup):
+    """Another agent's messages, taken while there is a point in it."""
+
+    def __init__(self, other: str, attended: Callable[[], Container[str]]) -> None:
+        super().__init__()
+        self._other = other
+        self._attended = attended
+
+    def can_execute(self, entity: object) -> bool:  # noqa: ARG002 (the group stands for it)
+        return self._other in self._attended()
+
+
 class AgentNode(Node):
     """An agent's brain and radio on topics.
 
-    In lock step it acts when ticked, once everything that the tick counts has arrived; otherwise
-    whenever it hears something, and at 20 Hz of the node's clock.
+    In lock step it acts when ticked, once everything that the tick counts has arrived.
+
+    Running freely, it acts once for all that came together, and at 20 Hz of the node's clock. Most
+    of what a short message costs is waking up for it; so of whom isn't in range nothing is taken,
+    and while the protocol can't go on without one agent's word, nobody else's: what others say
+    meanwhile waits, and is taken together. What overflows is lost, as it may be by radio.
 
     Attributes:
         config: who it is.
@@ -98,26 +113,29 @@ class AgentNode(Node):
         self.is_done = False
         self.ignored: Final[Counter[str]] = Counter()
         self._on_ready: Final = on_ready
-        pacing = Pacing.EVENT if self.config.pace.is_lockstep else Pacing.PERIODIC
+        self._is_lockstep: Final = self.config.pace.is_lockstep
+        pacing = Pacing.EVENT if self._is_lockstep else Pacing.PERIODIC
         site = Site.from_scenario(self.config.scenario)
         self._member: Final = create(self.config.name, site, pacing, Atlas(site.grid))
         self._timed: Final = TimedMember(self._member, time.thread_time, time.time)
-        self._odometry_count = 0
-        self._connectivity_count = 0
+        self._taken: Final[Counter[str]] = Counter()
         latency_s = self.config.scenario.communication.hop_latency_s
         self._arrivals: Final = Arrivals(self.config.others, nanoseconds(latency_s))
         self._tick: msg.Tick | None = None
-        self._published = self._commands = self._team_messages = 0
+        self._published: Final[Counter[str]] = Counter()
         self._is_ready = False
         self._is_stopped = False
         self._meetings_reported = 0
+        self._neighbours = frozenset[str]()
+        self._attended: Container[str] = self.config.others if self._is_lockstep else ()
         self._create_publishers()
         self._create_subscriptions()
         self._steady: Final = Clock(clock_type=ClockType.STEADY_TIME)
         self._ready_timer: Final = self.create_timer(
             _READY_PERIOD_S, self._say_ready, clock=self._steady
         )
-        if not self.config.pace.is_lockstep:
+        self._news: Final = self.create_guard_condition(self._step_freely)
+        if not self._is_lockstep:
             self.create_timer(CONTROL_PERIOD_S, self._step_freely)
 
     def _declared(self, name: str) -> object:
@@ -132,24 +150,23 @@ class AgentNode(Node):
             reliability=ReliabilityPolicy.RELIABLE,
             durability=DurabilityPolicy.TRANSIENT_LOCAL,
         )
-        self._command_pub = create(TwistStamped, "cmd_vel", _DEPTH)
         self._answer_pub = create(msg.TickReply, "/tick_reply", _DEPTH)
-        self._team_pubs = {
-            topic: create(kind, topic, _DEPTH) for topic, kind in wire.TEAM_TYPES.items()
+        self._pubs = {
+            topic: create(kind, topic, held if topic == "team_strategy" else _DEPTH)
+            for topic, kind in wire.TYPES.items()
         }
-        self._task_pub = create(msg.TaskEvent, "task_event", _DEPTH)
-        self._strategy_pub = create(msg.TeamStrategy, "team_strategy", held)
-        self._timing_pub = create(msg.RoundTiming, "round_timing", _DEPTH)
-        # Nothing is estimated yet, but the topic is there for those who look for it.
-        estimate_pub = create(msg.Estimate, "estimate", _DEPTH)
-        self._recorded_pubs = (self._task_pub, self._strategy_pub, self._timing_pub, estimate_pub)
 
     def _create_subscriptions(self) -> None:
         subscribe = self.create_subscription
         self._tick_sub = subscribe(msg.Tick, "tick", self._take_tick, _DEPTH)
         own = [
-            subscribe(Odometry, "odom", self._take_odometry, _DEPTH),
-            subscribe(msg.Connectivity, "/connectivity", self._take_connectivity, _DEPTH),
+            subscribe(Odometry, "odom", self._taking("odom", self._see_odometry), _DEPTH),
+            subscribe(
+                msg.Connectivity,
+                "/connectivity",
+                self._taking("connectivity", self._see_connectivity),
+                _DEPTH,
+            ),
             self._tick_sub,
         ]
         team = [
@@ -163,30 +180,45 @@ class AgentNode(Node):
         kind = wire.TEAM_TYPES[topic]
 
         def take(data: bytes) -> None:
-            self._arrivals.note(other, self._hear(other, kind, data))
+            sent_ns = self._hear(other, kind, data)
+            if self._is_lockstep:
+                self._arrivals.note(other, sent_ns)
             self._proceed()
 
-        return self.create_subscription(kind, f"/{other}/{topic}", take, _DEPTH, raw=True)
+        return self.create_subscription(
+            kind,
+            f"/{other}/{topic}",
+            take,
+            _COUNTED if self._is_lockstep else _BY_RADIO,
+            callback_group=_Hearing(other, lambda: self._attended),
+            raw=True,
+        )
 
-    def _take_odometry(self, message: Odometry) -> None:
-        self._odometry_count += 1
-        try:
-            seen = wire.decode_odometry(message, self.config.name)
-        except wire.WireError as error:
-            self._ignore(f"odom: {error}")
-        else:
-            self._member.see_odometry(seen.stamp_ns, seen.pose, seen.linear_mps, seen.angular_radps)
-        self._proceed()
+    def _taking(self, topic: str, see: Callable[[Any], None]) -> Callable[[Any], None]:
+        def take(message: object) -> None:
+            self._taken[topic] += 1
+            try:
+                see(message)
+            except wire.WireError as error:
+                self._ignore(f"{topic}: {error}")
+            self._proceed()
 
-    def _take_connectivity(self, message: msg.Connectivity) -> None:
-        self._connectivity_count += 1
-        try:
-            neighbours, stamp_ns = wire.decode_neighbours(message, self.config.name)
-        except wire.WireError as error:
-            self._ignore(f"connectivity: {error}")
-        else:
-            self._member.see_neighbours(stamp_ns, neighbours)
-        self._proceed()
+        return take
+
+    def _see_odometry(self, message: Odometry) -> None:
+        seen = wire.decode_odometry(message, self.config.name)
+        self._member.see_odometry(seen.stamp_ns, seen.pose, seen.linear_mps, seen.angular_radps)
+
+    def _see_connectivity(self, message: msg.Connectivity) -> None:
+        self._neighbours, stamp_ns = wire.decode_neighbours(message, self.config.name)
+        self._member.see_neighbours(stamp_ns, self._neighbours)
+        self._attend()
+
+    def _attend(self) -> None:
+        """Choose whose messages are to be taken; in lock step all are."""
+        if not self._is_lockstep:
+            awaited = self._member.awaited
+            self._attended = self._neighbours if awaited is None else (awaited,)
 
     def _hear(self, other: str, kind: type, data: bytes) -> int:
         """Take what another agent's topic carries, whatever that is; return when it was sent.
@@ -204,7 +236,7 @@ class AgentNode(Node):
         if message.sender != other:
             self._ignore(f"{other}: a message in the name of {message.sender!r}")
             return sent_ns
-        if not self.config.pace.is_lockstep:
+        if not self._is_lockstep:
             # The sender's clock may be a tick ahead of this one's; what was heard was said before.
             sent_ns = min(sent_ns, self._now_ns())
         self._member.receive(message, sent_ns)
@@ -214,16 +246,16 @@ class AgentNode(Node):
         self._ready_timer.cancel()
         if len(tick.agent_counts) != len(self.config.scenario.agents):
             self._ignore(f"tick: {len(tick.agent_counts)} counts")
-        elif self.config.pace.is_lockstep:
+        elif self._is_lockstep:
             self._tick = tick
             self._proceed()
         elif tick.stop:
             self._stop(tick)
 
     def _proceed(self) -> None:
-        """Act, if it is time to."""
-        if not self.config.pace.is_lockstep:
-            self._step_freely()
+        """Act, if it is time to; free running, once for all that came together."""
+        if not self._is_lockstep:
+            self._news.trigger()
         elif (tick := self._tick) is not None and self._has_all(tick):
             self._tick = None
             if tick.stop:
@@ -244,16 +276,17 @@ class AgentNode(Node):
     def _has_all(self, tick: msg.Tick) -> bool:
         due = dict(zip(self.config.scenario.agents, tick.agent_counts, strict=True))
         return (
-            self._odometry_count >= tick.odometry_count
-            and self._connectivity_count >= tick.connectivity_count
+            self._taken["odom"] >= tick.odometry_count
+            and self._taken["connectivity"] >= tick.connectivity_count
             and self._arrivals.are_complete(due, tick.time_ns)
         )
 
     def _step_freely(self) -> None:
-        if not self._odometry_count or self._is_stopped:
+        if not self._taken["odom"] or self._is_stopped:
             return
         self._ready_timer.cancel()
         self._step(self._now_ns())
+        self._attend()
         if self._member.meetings_ended != self._meetings_reported:
             self._meetings_reported = self._member.meetings_ended
             self._answer(0)
@@ -263,33 +296,20 @@ class AgentNode(Node):
         for action in due:
             self._perform(action, now_ns)
         if timing is not None:
-            self._publish(self._timing_pub, wire.encode_round_timing(timing, now_ns))
+            self._publish("round_timing", wire.encode_round_timing(timing, now_ns))
 
     def _perform(self, action: actions.Action, now_ns: int) -> None:
-        match action:
-            case actions.Drive():
-                self._commands += 1
-                self._publish(self._command_pub, wire.encode_drive(action, now_ns))
-            case actions.SendMessage(message):
-                self._team_messages += 1
-                publisher = self._team_pubs[wire.team_topic(message)]
-                self._publish(publisher, wire.encode_message(message, now_ns))
-            case actions.ReportTask(event):
-                name = self.config.name
-                self._publish(self._task_pub, wire.encode_task_event(event, name, now_ns))
-            case actions.HoldStrategy(strategy):
-                self._publish(self._strategy_pub, wire.encode_team_strategy(strategy, now_ns))
-            case actions.CountIgnored(reason):
-                self.ignored[reason] += 1
-            case _:
-                assert_never(action)
+        if isinstance(action, actions.CountIgnored):
+            self.ignored[action.reason] += 1
+        else:
+            self._publish(*wire.encode_action(action, self.config.name, now_ns))
 
-    def _publish(self, publisher: Any, message: object) -> None:  # noqa: ANN401 (rclpy's)
-        self._published += 1
-        publisher.publish(message)
+    def _publish(self, topic: str, message: object) -> None:
+        self._published[topic] += 1
+        self._pubs[topic].publish(message)
 
     def _answer(self, sequence: int) -> None:
-        need_ns = self._member.next_need_ns
+        need_ns, published = self._member.next_need_ns, self._published
         self._answer_pub.publish(
             msg.TickReply(
                 agent=self.config.name,
@@ -297,9 +317,9 @@ class AgentNode(Node):
                 ready=self._is_ready,
                 has_next_need=need_ns is not None,
                 next_need_ns=need_ns or 0,
-                team_messages=self._team_messages,
-                commands=self._commands,
-                published=self._published,
+                team_messages=sum(published[topic] for topic in wire.TEAM_TYPES),
+                commands=published["cmd_vel"],
+                published=published.total(),
                 meetings_ended=self._member.meetings_ended,
             )
         )
@@ -314,11 +334,10 @@ class AgentNode(Node):
     def _is_matched(self) -> bool:
         """Whether every topic has found those whom it needs."""
         others, recorders = len(self.config.others), int(self.config.has_recorder)
+        hearers = {"cmd_vel": 1, **dict.fromkeys(wire.TEAM_TYPES, others)}
         publishers = [
             (self._answer_pub, 1),
-            (self._command_pub, 1 + recorders),
-            *((publisher, others + recorders) for publisher in self._team_pubs.values()),
-            *((publisher, recorders) for publisher in self._recorded_pubs),
+            *((self._pubs[t], hearers.get(t, 0) + recorders) for t in self._pubs),
         ]
         return all(p.get_subscription_count() >= least for p, least in publishers) and all(
             subscription.get_publisher_count() for subscription in self._own_subscriptions
@@ -326,6 +345,10 @@ class AgentNode(Node):
 
     def _now_ns(self) -> int:
         return int(self.get_clock().now().nanoseconds)
+
+    def log_end(self) -> None:
+        """Log what was ignored."""
+        self.get_logger().info(f"done; ignored: {dict(self.ignored)}")
 
     def _ignore(self, reason: str) -> None:
         if reason not in self.ignored and len(self.ignored) >= _MOST_REASONS:
@@ -335,66 +358,21 @@ class AgentNode(Node):
             self.get_logger().warning(f"ignored: {reason}")
 
 
-def run(
-    *,
-    spin: Spin,
-    args: Sequence[str] | None = None,
-    namespace: str | None = None,
-    parameters: Sequence[Parameter] = (),
-    on_started: Callable[[], None] = lambda: None,
-    on_ready: Callable[[], None] = lambda: None,
-) -> bool:
-    """Be an agent until the run is over or a signal comes.
-
-    Args:
-        spin: executes the node's callbacks until a predicate holds.
-        args: the command line with ROS arguments; by default ``sys.argv``.
-        namespace: the agent's name, unless the command line says it.
-        parameters: overrides.
-        on_started: called when the node exists and the agent has planned.
-        on_ready: called when it has found all the others.
-
-    Returns:
-        Whether the run came to its end.
-
-    Raises:
-        InputError: a parameter or the scenario can't be used.
-        PlanningError: the agent's task has no plan.
-        InfeasibleRoundError: the team has no admissible next meeting.
-    """
-    # rclpy shuts itself down on SIGINT; a KeyboardInterrupt besides could strike anywhere.
-    previous = signal.signal(signal.SIGINT, lambda *_: None)
-    rclpy.init(args=args)
-    try:
-        node = AgentNode(namespace=namespace, parameters=parameters, on_ready=on_ready)
-        on_started()
-        spin(node, lambda: node.is_done)
-        node.get_logger().info(f"done; ignored: {dict(node.ignored)}")
-    except ExternalShutdownException:
-        return False
-    except RuntimeError:
-        # A signal that shuts rclpy down in the midst of anything makes it fail in its own ways.
-        if rclpy.ok():
-            raise
-        return False
-    finally:
-        rclpy.try_shutdown()
-        signal.signal(signal.SIGINT, previous)
-    return True
-
-
 def main(args: Sequence[str] | None = None) -> int:
-    """Run an agent; return the exit status."""
+    """Run an agent until the run is over or a signal comes; return the exit status."""
     try:
-        run(spin=_spin, args=args)
+        rclpy.init(args=args)
+        node = AgentNode()
+        executor = SingleThreadedExecutor()
+        executor.add_node(node)
+        while not node.is_done:
+            executor.spin_once()
+        node.log_end()
+    except (KeyboardInterrupt, ExternalShutdownException):
+        return 0
     except TlcommError as error:
         print(f"agent: {error}", file=sys.stderr)  # noqa: T201 (the one line to the user)
         return _STATUS_INPUT if isinstance(error, InputError | PlanningError) else _STATUS_BROKEN
+    finally:
+        rclpy.try_shutdown()
     return 0
-
-
-def _spin(node: Node, done: Callable[[], bool]) -> None:
-    executor = SingleThreadedExecutor(context=node.context)
-    executor.add_node(node)
-    while not done():
-        executor.spin_once()

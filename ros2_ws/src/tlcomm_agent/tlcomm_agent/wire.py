@@ -1,7 +1,8 @@
 """An agent's messages and the core's values, one to one and lossless.
 
 ``TEAM_TYPES``         the type of each topic that agents talk on
-``team_topic``         the topic that a message belongs on
+``TYPES``              the type of each topic that an agent publishes
+``encode_action``      what the agent does, of ``PublishedAction``
 ``encode_message``     what the agent says
 ``decode_message``     what another agent says, validated
 ``encode_drive``, ``encode_task_event``, ``encode_team_strategy``, ``encode_round_timing``
@@ -19,12 +20,13 @@ from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point, TwistStamped
 from std_msgs.msg import Header
 
-from tlcomm_core.agent.actions import Drive, TaskEvent
+from tlcomm_core.agent.actions import Drive, ReportTask, TaskEvent
 from tlcomm_core.agent.timing import RoundTiming
 from tlcomm_core.errors import TlcommError
 from tlcomm_core.game.offer import MAX_STOPS, MemberOffer, PlannedStop
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose, yaw_from_quaternion
+from tlcomm_core.protocol.actions import HoldStrategy, SendMessage
 from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
 from tlcomm_core.units import NANOSECONDS_PER_SECOND
 from tlcomm_core.world.observation import Odometry
@@ -32,16 +34,18 @@ from tlcomm_msgs import msg
 
 __all__ = [
     "TEAM_TYPES",
+    "TYPES",
+    "PublishedAction",
     "WireError",
     "decode_message",
     "decode_neighbours",
     "decode_odometry",
+    "encode_action",
     "encode_drive",
     "encode_message",
     "encode_round_timing",
     "encode_task_event",
     "encode_team_strategy",
-    "team_topic",
 ]
 
 TEAM_TYPES: Final[Mapping[str, Any]] = MappingProxyType(
@@ -51,7 +55,22 @@ TEAM_TYPES: Final[Mapping[str, Any]] = MappingProxyType(
         "confirmation": msg.Confirmation,
     }
 )
+TYPES: Final[Mapping[str, Any]] = MappingProxyType(
+    {
+        "cmd_vel": TwistStamped,
+        **TEAM_TYPES,
+        "task_event": msg.TaskEvent,
+        "team_strategy": msg.TeamStrategy,
+        "round_timing": msg.RoundTiming,
+        # Nothing is estimated yet, but the topic is there for those who look for it.
+        "estimate": msg.Estimate,
+    }
+)
+PublishedAction = Drive | SendMessage | ReportTask | HoldStrategy
 
+_TEAM_TOPICS: Final[Mapping[type[Message], str]] = MappingProxyType(
+    {PlanOffer: "plan_offer", BestResponse: "best_response", Confirmation: "confirmation"}
+)
 _FRAME: Final = "map"
 _BASE_FRAME: Final = "base_link"
 _MAX_AGENTS: Final = 1000
@@ -66,15 +85,17 @@ class WireError(TlcommError):
     """A message from outside that can't be used; the text says which field and why."""
 
 
-def team_topic(message: Message) -> str:
-    """Return the topic that a message belongs on."""
-    match message:
-        case PlanOffer():
-            return "plan_offer"
-        case BestResponse():
-            return "best_response"
-        case Confirmation():
-            return "confirmation"
+def encode_action(action: PublishedAction, agent: str, stamp_ns: int) -> tuple[str, _RosMessage]:
+    """Return the topic and the message that an action is, when ``agent`` takes it."""
+    match action:
+        case Drive():
+            return "cmd_vel", encode_drive(action, stamp_ns)
+        case SendMessage(message):
+            return _TEAM_TOPICS[type(message)], encode_message(message, stamp_ns)
+        case ReportTask(event):
+            return "task_event", encode_task_event(event, agent, stamp_ns)
+        case HoldStrategy(strategy):
+            return "team_strategy", encode_team_strategy(strategy, stamp_ns)
 
 
 def encode_message(message: Message, stamp_ns: int) -> _RosMessage:

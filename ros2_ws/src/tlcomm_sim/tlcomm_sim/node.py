@@ -1,12 +1,10 @@
 """The sim as a ROS 2 node: a thin shell around the world and its conductor.
 
 ``main``            the executable: ``ros2 run tlcomm_sim sim --ros-args -p scenario:=…``
-``run``             the process's whole life, for whoever supervises it
 ``SimNode``         the node
 ``RunBrokenError``  somebody doesn't answer
 """
 
-import signal
 import sys
 import time
 from collections.abc import Callable, Sequence
@@ -41,9 +39,7 @@ from tlcomm_sim.outputs import (
     Warn,
 )
 
-__all__ = ["RunBrokenError", "SimNode", "main", "run"]
-
-Spin = Callable[[Node, Callable[[], bool]], None]
+__all__ = ["RunBrokenError", "SimNode", "main"]
 
 _DEPTH: Final = 1000
 _READY_PERIOD_S: Final = 0.1
@@ -223,7 +219,7 @@ class SimNode(Node):
                 case _:
                     assert_never(output)
 
-    def log_mishaps(self) -> None:
+    def log_end(self) -> None:
         """Log how often each agent ran into something, or commanded what can't be done."""
         collisions, refused = dict(self._world.collisions), dict(self._world.refused)
         self.get_logger().info(f"done; collisions: {collisions}; refused commands: {refused}")
@@ -240,65 +236,21 @@ class SimNode(Node):
                 assert_never(observation)
 
 
-def run(
-    *,
-    spin: Spin,
-    args: Sequence[str] | None = None,
-    parameters: Sequence[Parameter] = (),
-    on_started: Callable[[], None] = lambda: None,
-    on_ready: Callable[[], None] = lambda: None,
-    on_progress: Callable[[int, int], None] = lambda _ns, _meetings: None,
-) -> bool:
-    """Be the sim until the run is over or a signal comes.
-
-    Args:
-        spin: executes the node's callbacks until a predicate holds.
-        args: the command line with ROS arguments; by default ``sys.argv``.
-        parameters: overrides.
-        on_started: called when the node exists.
-        on_ready: called when the run begins.
-        on_progress: called now and then with the simulated time (ns) and the meetings ended.
-
-    Returns:
-        Whether the run came to its end.
-
-    Raises:
-        InputError: a parameter or the scenario can't be used.
-        RunBrokenError: somebody hasn't answered in time.
-    """
-    # rclpy shuts itself down on SIGINT; a KeyboardInterrupt besides could strike anywhere.
-    previous = signal.signal(signal.SIGINT, lambda *_: None)
-    rclpy.init(args=args)
-    try:
-        node = SimNode(parameters=parameters, on_ready=on_ready, on_progress=on_progress)
-        on_started()
-        spin(node, lambda: node.is_done)
-        node.log_mishaps()
-    except ExternalShutdownException:
-        return False
-    except RuntimeError:
-        # A signal that shuts rclpy down in the midst of anything makes it fail in its own ways.
-        if rclpy.ok():
-            raise
-        return False
-    finally:
-        rclpy.try_shutdown()
-        signal.signal(signal.SIGINT, previous)
-    return True
-
-
 def main(args: Sequence[str] | None = None) -> int:
-    """Run the sim; return the exit status."""
+    """Run the sim until the run is over or a signal comes; return the exit status."""
     try:
-        run(spin=_spin, args=args)
+        rclpy.init(args=args)
+        node = SimNode()
+        executor = SingleThreadedExecutor()
+        executor.add_node(node)
+        while not node.is_done:
+            executor.spin_once()
+        node.log_end()
+    except (KeyboardInterrupt, ExternalShutdownException):
+        return 0
     except TlcommError as error:
         print(f"sim: {error}", file=sys.stderr)  # noqa: T201 (the one line to the user)
         return _STATUS_INPUT if isinstance(error, InputError) else _STATUS_BROKEN
+    finally:
+        rclpy.try_shutdown()
     return 0
-
-
-def _spin(node: Node, done: Callable[[], bool]) -> None:
-    executor = SingleThreadedExecutor(context=node.context)
-    executor.add_node(node)
-    while not done():
-        executor.spin_once()

@@ -114,6 +114,11 @@ class Brain:
         return self._activity.negotiation.phase if isinstance(self._activity, _Meeting) else None
 
     @property
+    def awaited(self) -> str | None:
+        """A member without whose word a meeting can't go on; ``None`` if anyone's may matter."""
+        return self._activity.negotiation.awaited if isinstance(self._activity, _Meeting) else None
+
+    @property
     def next_need_s(self) -> float:
         """When the brain must be told that time has passed; inf if only events matter."""
         match self._activity:

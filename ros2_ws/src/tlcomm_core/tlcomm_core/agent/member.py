@@ -61,6 +61,11 @@ class Member:
         return self._brain.meetings_ended
 
     @property
+    def awaited(self) -> str | None:
+        """A member without whose word a meeting can't go on; ``None`` if anyone's may matter."""
+        return self._brain.awaited
+
+    @property
     def phase(self) -> Phase | None:
         """Where planning the next round stands; ``None`` when not at a meeting."""
         return self._brain.phase

@@ -106,6 +106,11 @@ class MinimumConsensus:
         return None
 
     @property
+    def awaited(self) -> str | None:
+        """A neighbour without whose word the exchange under way can't end, if there is one."""
+        return min(self._neighbours.difference(self._heard.get(self._step, ())), default=None)
+
+    @property
     def has_heard_all(self) -> bool:
         """Whether each neighbour has been heard at least once."""
         return self._step > 0 or self._is_step_complete()

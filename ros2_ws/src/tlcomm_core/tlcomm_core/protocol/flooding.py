@@ -9,7 +9,7 @@ the order, and hearing one twice changes nothing; so late, duplicate and reorder
 harmless by construction, and loss is mended by telling a neighbour again what it doesn't show.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Generic, TypeVar
 
 __all__ = ["Flood"]
@@ -42,7 +42,7 @@ class Flood(Generic[Item]):
         return len(self._held) == len(self._team)
 
     def learn(
-        self, sender: str, known: Iterable[str], items: Mapping[str, Item]
+        self, sender: str, known: Collection[str], items: Mapping[str, Item]
     ) -> frozenset[str] | None:
         """Take in what a neighbour told.
 
@@ -52,16 +52,19 @@ class Flood(Generic[Item]):
             items: the items told. Of an item held already, the first version stays.
 
         Returns:
-            Owners of the items to tell now: new here, or not yet shown by the sender. ``None`` if
-            all of it was known, and nothing changed.
+            Owners of the items to tell now: those new here and, to a sender that asks, those that
+            it hasn't shown. ``None`` if all of it was known, and nothing changed.
         """
-        shown = self._shown.get(sender, frozenset())
-        self._shown[sender] = shown.union(known)
+        before = self._shown.get(sender)
+        # Who speaks for the first time may have missed what was said before; who shows nothing
+        # new repeats itself because something is missing. What others lack is on its way.
+        asks = before is None or before.issuperset(known)
+        self._shown[sender] = shown = (before or frozenset()).union(known)
         fresh = frozenset(items) - self._held.keys()
         for owner in sorted(fresh):
             self._held[owner] = items[owner]
-        told = fresh | self.lacking(sender)
-        return told if told or self._shown[sender] != shown else None
+        told = fresh | self.lacking(sender) if asks else fresh
+        return told if told or shown != before else None
 
     def lacking(self, *neighbours: str) -> frozenset[str]:
         """Return owners of the items held here that some neighbour hasn't shown to hold."""

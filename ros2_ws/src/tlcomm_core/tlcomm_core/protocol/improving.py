@@ -95,6 +95,11 @@ class Improving:
         return self._consensus.receive(message)
 
     @property
+    def awaited(self) -> str | None:
+        """A neighbour without whose word this phase can't go on, if there is one."""
+        return self._consensus.awaited
+
+    @property
     def is_begun_by_all(self) -> bool:
         """Whether all neighbours are known to be in this phase too, or past it."""
         return self._consensus.has_heard_all

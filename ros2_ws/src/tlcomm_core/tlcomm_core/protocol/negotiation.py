@@ -141,6 +141,16 @@ class Negotiation:
         return self._agreed
 
     @property
+    def awaited(self) -> str | None:
+        """A neighbour without whose word nothing goes on, whatever others say; ``None`` if unknown.
+
+        Whoever takes messages may leave the others' until this one's has come.
+        """
+        if self._improving is None or self._confirming is not None:
+            return None
+        return self._improving.awaited
+
+    @property
     def next_need_s(self) -> float:
         """When ``proceed`` must be called again, whatever is heard until then; may be inf."""
         return self._next_need_s

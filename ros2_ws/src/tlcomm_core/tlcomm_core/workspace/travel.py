@@ -220,11 +220,19 @@ class TravelTimes:
         entry = self._entry(self._snapped(pose))
         if entry.location == target:
             return self._leg_to_centre(entry)
-        times_s = self.time_to(target)[entry.location] + np.array(entry.heading_s)
-        heading = _first_least(times_s.tolist())
-        tree = self._paths_into(target)
-        nodes = _walk(tree, entry.location * HEADINGS + heading, target)
-        return self._leg_along(entry, nodes, entry.approach_s + float(times_s[heading]))
+        heading, duration_s = self._start_towards(entry, target)
+        nodes = _walk(self._paths_into(target), entry.location * HEADINGS + heading, target)
+        return self._leg_along(entry, nodes, duration_s)
+
+    def _start_towards(self, entry: _Entry, target: int) -> tuple[int, float]:
+        """Return the lattice heading of the shortest leg to another location, and its time."""
+        times_s = (self.time_to(target)[entry.location] + entry.heading_s).tolist()
+        heading = _first_least(times_s)
+        if times_s[heading] == math.inf:
+            raise LocalMisuseError(
+                f"no path between the locations {entry.location!r} and {target!r}"
+            )
+        return heading, entry.approach_s + times_s[heading]
 
     def leg_from(self, pose: Pose, target: int) -> Leg:
         """Return the shortest leg to a location along the tree of paths out of the pose.
@@ -254,7 +262,7 @@ class TravelTimes:
 
     def _detour(self, pose: Pose, target: int) -> Detour:
         reach = self.reach(pose)
-        direct_s = self.leg_to(pose, target).duration_s
+        direct_s = self._direct_s(pose, target)
         onward_s = self.time_to(target)[np.arange(len(reach.heading)), reach.heading]
         # Where the agent needn't move, it keeps a yaw that may not be a lattice heading.
         onward_s[reach.time_s == 0.0] = direct_s
@@ -262,6 +270,13 @@ class TravelTimes:
         extra_s = np.maximum(reach.time_s + onward_s - direct_s, 0.0)
         extra_s.setflags(write=False)
         return Detour(reach.time_s, extra_s)
+
+    def _direct_s(self, pose: Pose, target: int) -> float:
+        """Return the time of ``leg_to`` without following its path."""
+        entry = self._entry(self._snapped(pose))
+        if entry.location == target:
+            return self._leg_to_centre(entry).duration_s
+        return self._start_towards(entry, target)[1]
 
     def _paths_into(self, target: int) -> PathTree:
         return self._arrivals.get(target, lambda: self._search_into(target))

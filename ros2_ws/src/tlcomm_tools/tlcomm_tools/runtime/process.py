@@ -4,6 +4,7 @@
 """
 
 import argparse
+import os
 import signal
 import sys
 from collections.abc import Callable, Sequence
@@ -15,13 +16,12 @@ from rclpy.parameter import Parameter
 from tlcomm_core.errors import InputError, PlanningError, TlcommError
 from tlcomm_core.pace import parse_pace
 from tlcomm_core.units import seconds
+from tlcomm_tools.runtime.life import live
 from tlcomm_tools.runtime.notify import (
     Failed,
-    Finished,
     Notifier,
     Progress,
     Ready,
-    Started,
     watch_parent,
 )
 from tlcomm_tools.runtime.spin import spin
@@ -35,6 +35,9 @@ _STATUS_BROKEN: Final = 3
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one process of a run and tell its supervisor how it goes; return the exit status."""
     watch_parent()
+    # A process that wakes up waits for its turn instead of interrupting another's: what arrives
+    # meanwhile is then handled together, and agents that share a computer agree sooner.
+    os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
     notifier = Notifier.from_environment()
     arguments = _parser().parse_args(argv)
     work: Callable[[argparse.Namespace, Notifier], int] = arguments.work
@@ -77,41 +80,41 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _be_agent(arguments: argparse.Namespace, notifier: Notifier) -> int:
-    from tlcomm_agent import node  # noqa: PLC0415 (each role loads its own part only)
+    from tlcomm_agent.node import AgentNode  # noqa: PLC0415 (each role loads its own part only)
 
-    is_over = node.run(
-        spin=spin,
-        args=[],
-        namespace=arguments.name,
-        parameters=[
-            *_common(arguments),
-            Parameter("use_sim_time", value=not parse_pace(arguments.pace).is_lockstep),
-        ],
-        on_started=lambda: notifier.tell(Started()),
-        on_ready=lambda: notifier.tell(Ready()),
+    parameters = [
+        *_common(arguments),
+        Parameter("use_sim_time", value=not parse_pace(arguments.pace).is_lockstep),
+    ]
+    return live(
+        lambda: AgentNode(
+            namespace=arguments.name,
+            parameters=parameters,
+            on_ready=lambda: notifier.tell(Ready()),
+        ),
+        notifier,
     )
-    return _leave(notifier, is_over=is_over)
 
 
 def _be_sim(arguments: argparse.Namespace, notifier: Notifier) -> int:
-    from tlcomm_sim import node  # noqa: PLC0415 (each role loads its own part only)
+    from tlcomm_sim.node import SimNode  # noqa: PLC0415 (each role loads its own part only)
 
     chosen = {"rounds": arguments.rounds, "until_s": arguments.until}
-    is_over = node.run(
-        spin=spin,
-        args=[],
-        parameters=[
-            *_common(arguments),
-            Parameter("seed", value=arguments.seed),
-            *(Parameter(name, value=value) for name, value in chosen.items() if value is not None),
-        ],
-        on_started=lambda: notifier.tell(Started()),
-        on_ready=lambda: notifier.tell(Ready()),
-        on_progress=lambda sim_ns, meetings_ended: notifier.tell(
-            Progress(seconds(sim_ns), meetings_ended)
+    parameters = [
+        *_common(arguments),
+        Parameter("seed", value=arguments.seed),
+        *(Parameter(name, value=value) for name, value in chosen.items() if value is not None),
+    ]
+    return live(
+        lambda: SimNode(
+            parameters=parameters,
+            on_ready=lambda: notifier.tell(Ready()),
+            on_progress=lambda sim_ns, meetings_ended: notifier.tell(
+                Progress(seconds(sim_ns), meetings_ended)
+            ),
         ),
+        notifier,
     )
-    return _leave(notifier, is_over=is_over)
 
 
 def _be_recorder(arguments: argparse.Namespace, notifier: Notifier) -> int:
@@ -130,12 +133,6 @@ def _common(arguments: argparse.Namespace) -> list[Parameter]:
         Parameter("pace", value=arguments.pace),
         Parameter("recorder", value=arguments.recorder),
     ]
-
-
-def _leave(notifier: Notifier, *, is_over: bool) -> int:
-    if is_over:
-        notifier.tell(Finished())
-    return 0
 
 
 if __name__ == "__main__":

@@ -6,8 +6,8 @@
 
 An executor rebuilds its wait set from Python objects before every wait, with two event handlers
 per publisher and subscription in it; that is more than half of what a small message costs. Here
-the set is kept, holds subscriptions, timers and one guard condition only, and a subscription that
-is ready is emptied at once. The price is rclpy's private wait set, used in this module alone.
+the set is kept, holds subscriptions, timers and guard conditions only, and a subscription that is
+ready is emptied at once. The price is rclpy's private wait set, used in this module alone.
 """
 
 from collections.abc import Callable, Iterator
@@ -105,9 +105,6 @@ class _Loop:
         self._node = node
         self._context = node.context
         self._signal = SignalHandlerGuardCondition(self._context)
-        self._subscriptions: list[Subscription] = []
-        self._timers: list[Any] = []
-        self._guards: list[Any] = []
         self._build()
 
     def close(self) -> None:
@@ -115,50 +112,73 @@ class _Loop:
         self._signal.destroy()
 
     def turn(self) -> None:
-        """Wait for anything at all, at most 0.1 s, and execute what is ready."""
-        node = self._node
-        if [*node.subscriptions] != self._subscriptions or [*node.timers] != self._timers:
+        """Wait for anything at all, at most 0.1 s, and execute what is ready.
+
+        Guard conditions come last, and those too that the other callbacks have triggered: they ask
+        for what follows from all that came together.
+        """
+        if self._entities != self._present():
             self._build()
-        wait_set = self._wait_set
-        wait_set.clear_entities()
-        for subscription in self._subscriptions:
-            wait_set.add_subscription(subscription.handle)
-        for timer in self._timers:
-            wait_set.add_timer(timer.handle)
-        for guard in self._guards:
-            wait_set.add_guard_condition(guard.handle)
-        wait_set.wait(_WAIT_NS)
-        if not self._context.ok():
-            raise ExternalShutdownException
-        timers = wait_set.get_ready_entities("timer")
-        ready = set(wait_set.get_ready_entities("subscription"))
-        if timers:
+        self._wait()
+        ready = self._wait_set.get_ready_entities("subscription")
+        if self._wait_set.get_ready_entities("timer"):
             self._run_timers()
-        for pointer, subscription in zip(self._pointers, self._subscriptions, strict=True):
-            if pointer in ready:
-                _drain(subscription)
+        for pointer in ready:
+            _drain(self._subscription_at[pointer])
+        if self._guards:
+            self._run_guards()
+
+    def _present(self) -> tuple[list[Subscription], list[Any], list[Any]]:
+        node = self._node
+        return [*node.subscriptions], [*node.timers], [*node.guards]
 
     def _build(self) -> None:
-        node = self._node
-        self._subscriptions = [*node.subscriptions]
-        self._timers = [*node.timers]
-        self._guards = [self._signal, *node.guards]
-        self._pointers = [subscription.handle.pointer for subscription in self._subscriptions]
-        self._wait_set = rclpy_implementation.WaitSet(
-            len(self._subscriptions),
-            len(self._guards),
-            len(self._timers),
-            0,
-            0,
-            0,
-            self._context.handle,
+        subscriptions, timers, guards = self._entities = self._present()
+        self._subscriptions = [(s, s.handle, s.callback_group.can_execute) for s in subscriptions]
+        self._subscription_at = {s.handle.pointer: s for s in subscriptions}
+        self._timers = [(timer, timer.handle) for timer in timers]
+        self._guards = {guard.handle.pointer: guard for guard in guards}
+        self._guard_handles = [guard.handle for guard in (self._signal, *guards)]
+        self._wait_set = self._wait_set_of(len(subscriptions), len(timers))
+        self._guard_set = self._wait_set_of(0, 0)
+
+    def _wait_set_of(self, subscriptions: int, timers: int) -> Any:  # noqa: ANN401 (rclpy's)
+        guards = len(self._guard_handles)
+        return rclpy_implementation.WaitSet(
+            subscriptions, guards, timers, 0, 0, 0, self._context.handle
         )
 
+    def _wait(self) -> None:
+        wait_set = self._wait_set
+        wait_set.clear_entities()
+        for subscription, handle, can_execute in self._subscriptions:
+            if can_execute(subscription):
+                wait_set.add_subscription(handle)
+        for _, handle in self._timers:
+            wait_set.add_timer(handle)
+        self._wait_with_guards(wait_set, _WAIT_NS)
+        if not self._context.ok():
+            raise ExternalShutdownException
+
+    def _wait_with_guards(self, wait_set: Any, at_most_ns: int) -> None:  # noqa: ANN401 (rclpy's)
+        for handle in self._guard_handles:
+            wait_set.add_guard_condition(handle)
+        wait_set.wait(at_most_ns)
+
     def _run_timers(self) -> None:
-        for timer in self._timers:
-            if timer.handle.is_timer_ready():
-                timer.handle.call_timer()
+        for timer, handle in self._timers:
+            if handle.is_timer_ready():
+                handle.call_timer()
                 timer.callback()
+
+    def _run_guards(self) -> None:
+        triggered = {*self._wait_set.get_ready_entities("guard_condition")}
+        self._guard_set.clear_entities()
+        self._wait_with_guards(self._guard_set, 0)
+        triggered.update(self._guard_set.get_ready_entities("guard_condition"))
+        for pointer, guard in self._guards.items():
+            if pointer in triggered:
+                guard.callback()
 
 
 def _drain(subscription: Subscription) -> None:
