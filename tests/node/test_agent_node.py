@@ -242,6 +242,7 @@ def test_agent_leaves_after_the_sim(surroundings: Surroundings) -> None:
         (OWN, {"scenario": "missing.yaml"}, "missing.yaml"),
         (OWN, {"pace": "fast"}, "pace: 'fast'"),
         (OWN, {"pace": -1.0}, "pace: '-1.0'"),
+        (OWN, {"seed": -1}, "seed: -1"),
     ],
 )
 def test_bad_parameters(

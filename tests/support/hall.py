@@ -23,6 +23,7 @@ from tlcomm_core.agent.member import Member, create
 from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.scenario.loader import loads
+from tlcomm_core.scenario.model import Faults
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.world.unicycle import integrate
@@ -47,18 +48,21 @@ agents:
 _TASK = "G F ((a & pick) & F (b & place))"
 
 
-def hall(count: int) -> Site:
+def hall(count: int, faults: Faults | None = None) -> Site:
     """Return the hall with so many agents, side by side; all have the same task."""
     agents = [
         f'  {name}: {{start: {list(start)}, task: "{_TASK}"}}\n'
         for name, start in list(STARTS.items())[:count]
     ]
-    return Site.from_scenario(loads(_TEXT + "".join(agents)))
+    scenario = loads(_TEXT + "".join(agents))
+    return Site.from_scenario(scenario.model_copy(update={"faults": faults or Faults()}))
 
 
-def make_member(name: str, count: int, pacing: Pacing = Pacing.EVENT) -> Member:
+def make_member(
+    name: str, count: int, pacing: Pacing = Pacing.EVENT, faults: Faults | None = None
+) -> Member:
     """Return a member of the hall's team."""
-    site = hall(count)
+    site = hall(count, faults)
     return create(name, site, pacing, Atlas(site.grid))
 
 
@@ -72,12 +76,13 @@ class LoneAgent:
 
     name: str
     count: int
+    faults: Faults | None = None
     now_s: float = 0.0
     done: list[tuple[float, Action]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         """Stand at the start, and see it."""
-        self.brain = make_member(self.name, self.count)._brain
+        self.brain = make_member(self.name, self.count, faults=self.faults)._brain
         self.pose = Pose(*STARTS[self.name])
         self.velocity = Drive(0.0, 0.0)
         self._show_odometry()

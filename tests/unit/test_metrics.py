@@ -194,6 +194,23 @@ def test_faults_and_failures_come_up() -> None:
     ]
 
 
+def test_failed_attempts_are_coped_with() -> None:
+    """They aren't in the verdict, and each leaves the task a window more."""
+    records = hand_made_records()
+    records.connectivity = [Connectivity(0, ((0, 1),), True)]
+    done = [own for own in records.tasks if own.event.kind is not TaskEventKind.TASK_SATISFIED]
+    failed = task(5.0, "west", TaskEventKind.FAULT, action="pick", detail="action=pick attempt=1")
+    records.tasks = [own for own in done if own.agent == "west"] + [failed]
+    period_s = hand_made_scenario().communication.period_s
+
+    def complaints(sim_s: float) -> list[str]:
+        verdict = document(records, replace(FACTS, sim_s=sim_s))["verdict"]
+        return [line for line in verdict if line.startswith("west: ")]
+
+    assert complaints(30.0 + period_s) == []
+    assert len(complaints(31.0 + period_s)) == 1
+
+
 def test_no_records_at_all_are_a_document() -> None:
     """A run that recorded nothing still has a result, in valid JSON."""
     facts = replace(FACTS, sim_s=0.0, failures=("sim: died",))

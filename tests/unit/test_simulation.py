@@ -21,7 +21,7 @@ from tlcomm_core.protocol.messages import BestResponse, Message, PlanOffer
 from tlcomm_core.records import event_log
 from tlcomm_core.scenario.generator import random_scenario
 from tlcomm_core.scenario.loader import load_scenario
-from tlcomm_core.scenario.model import Noise, Scenario
+from tlcomm_core.scenario.model import Faults, Noise, Scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import Simulated, simulate
 from tlcomm_core.units import nanoseconds
@@ -48,18 +48,22 @@ def scenario_of(label: str) -> Scenario:
     return load_scenario(SCENARIOS / f"{kind}.yaml")
 
 
-def mission_of(label: str, noise: float = 0.0, seed: int = 1) -> Mission:
+def mission_of(label: str, noise: float = 0.0, seed: int = 1, failing: float = 0.0) -> Mission:
     """Return a short mission; should meetings fail it ends two windows late."""
     scenario = scenario_of(label)
-    noisy = scenario.model_copy(update={"noise": Noise(linear=noise, angular=noise)})
+    disturbed = {
+        "noise": Noise(linear=noise, angular=noise),
+        "faults": Faults(action_failure=failing),
+    }
+    noisy = scenario.model_copy(update=disturbed)
     until_s = scenario.communication.period_s * (ROUNDS[label] + 2)
     return Mission(Site.from_scenario(noisy), seed, ROUNDS[label], until_s)
 
 
 @cache
-def run(label: str, noise: float = 0.0, seed: int = 1) -> Simulated:
+def run(label: str, noise: float = 0.0, seed: int = 1, failing: float = 0.0) -> Simulated:
     """Return a run, simulated once per session."""
-    return simulate(mission_of(label, noise, seed))
+    return simulate(mission_of(label, noise, seed, failing))
 
 
 def log_of(simulated: Simulated) -> list[str]:
@@ -245,6 +249,30 @@ def test_windows_are_kept_in_spite_of_noise(label: str, noise: float) -> None:
     """With speeds off by a tenth, agents are late, but not by a window."""
     simulated = run(label, noise)
     assert_windows_kept(label, simulated, connected_by_report(simulated))
+
+
+@pytest.mark.parametrize("label", ROUNDS)
+@pytest.mark.parametrize("failing", [0.1, 0.5, 1.0])
+def test_windows_are_kept_though_actions_fail(label: str, failing: float) -> None:
+    """Whether some or all attempts fail, nobody is late, nor anybody's fault the verdict's."""
+    simulated = run(label, failing=failing)
+    assert_windows_kept(label, simulated, connected_by_report(simulated))
+    faults = [own for own in simulated.records.tasks if own.event.kind is TaskEventKind.FAULT]
+    assert all(own.event.is_failed_attempt for own in faults)
+    planned_s = {own.strategy.round: own.strategy for own in simulated.records.strategies}
+    for own in simulated.records.tasks:
+        if own.event.kind is TaskEventKind.MEETING_REACHED and own.event.round:
+            latest_s = planned_s[own.event.round].communication_s
+            assert own.stamp_ns <= nanoseconds(latest_s) + 2_000
+    kinds = [own.event.kind for own in simulated.records.tasks]
+    assert (TaskEventKind.TASK_SATISFIED in kinds) == (failing < 1.0)
+
+
+def test_the_seed_decides_which_actions_fail() -> None:
+    """The same seed gives the same run, another one another."""
+    expected = log_of(run("corridor", failing=0.5))
+    assert log_of(simulate(mission_of("corridor", failing=0.5))) == expected
+    assert log_of(run("corridor", seed=2, failing=0.5)) != expected
 
 
 def most_distance_heard_m(label: str, monkeypatch: pytest.MonkeyPatch) -> float:

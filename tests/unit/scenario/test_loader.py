@@ -44,6 +44,7 @@ def test_a_good_scenario_loads_with_its_defaults() -> None:
     assert scenario.communication.hop_latency_s == 0.005
     assert scenario.motion.position_tolerance_m == 0.02
     assert scenario.noise.linear == 0.0
+    assert (scenario.faults.action_failure, scenario.faults.retries) == (0.0, 3)
     assert scenario.agents["two"].start == (0.75, 0.75, 0.0)
 
 

@@ -23,12 +23,14 @@ class AgentConfig:
         name: one of the scenario's agents.
         scenario: all that the team knows from the start.
         pace: lock step, or the clock runs by itself.
+        seed: of what befalls it.
         has_recorder: whether to wait for a recorder before saying that it is ready.
     """
 
     name: str
     scenario: Scenario
     pace: Pace
+    seed: int
     has_recorder: bool
 
     @classmethod
@@ -48,7 +50,10 @@ class AgentConfig:
             raise InputError(
                 f"namespace: {namespace!r} is no agent of {path!r}, which has {agents}"
             )
-        return cls(name, scenario, parse_pace(str(get("pace"))), bool(get("recorder")))
+        seed = get("seed")
+        if not (isinstance(seed, int) and seed >= 0):
+            raise InputError(f"seed: {seed!r} isn't an integer ≥ 0")
+        return cls(name, scenario, parse_pace(str(get("pace"))), seed, bool(get("recorder")))
 
     @property
     def others(self) -> tuple[str, ...]:

@@ -86,7 +86,7 @@ class AgentNode(Node):
         context: Context | None = None,
         on_ready: Callable[[], None] = lambda: None,
     ) -> None:
-        """Read the parameters ``scenario``, ``pace`` and ``recorder``; plan.
+        """Read the parameters ``scenario``, ``pace``, ``seed`` and ``recorder``; plan.
 
         Args:
             namespace: the agent's name, unless the command line says it.
@@ -116,7 +116,8 @@ class AgentNode(Node):
         self._is_lockstep: Final = self.config.pace.is_lockstep
         pacing = Pacing.EVENT if self._is_lockstep else Pacing.PERIODIC
         site = Site.from_scenario(self.config.scenario)
-        self._member: Final = create(self.config.name, site, pacing, Atlas(site.grid))
+        name, seed = self.config.name, self.config.seed
+        self._member: Final = create(name, site, pacing, Atlas(site.grid), seed)
         self._timed: Final = TimedMember(self._member, time.thread_time, time.time)
         self._taken: Final[Counter[str]] = Counter()
         latency_s = self.config.scenario.communication.hop_latency_s
@@ -139,7 +140,7 @@ class AgentNode(Node):
             self.create_timer(CONTROL_PERIOD_S, self._step_freely)
 
     def _declared(self, name: str) -> object:
-        defaults = {"scenario": "", "pace": "lockstep", "recorder": False}
+        defaults = {"scenario": "", "pace": "lockstep", "seed": 0, "recorder": False}
         descriptor = ParameterDescriptor(dynamic_typing=True)
         return self.declare_parameter(name, defaults[name], descriptor).value
 

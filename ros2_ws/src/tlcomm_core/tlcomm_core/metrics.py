@@ -43,7 +43,7 @@ class RunFacts:
     Attributes:
         method: of coordination.
         solver: of the round problem.
-        seed: of the world's noise.
+        seed: of all that was random.
         pace: "lockstep" or the real-time factor asked for.
         sim_s: simulated time at the end.
         wall_s: wall time of the run, or ``None`` if unknown.
@@ -130,7 +130,7 @@ def connected_intervals(connectivity: Sequence[Connectivity], end_ns: int) -> li
 
 
 def patience_s(scenario: Scenario, agent: str) -> float:
-    """Return the longest that an agent's task may go without being satisfied.
+    """Return the longest that an agent's task may go without being satisfied, if nothing fails.
 
     Every window leaves time for at least one more action of the task; two windows are spare.
     """
@@ -224,6 +224,14 @@ def _satisfied_ns(agent: str, records: RunRecords) -> Iterator[int]:
     )
 
 
+def _failed_ns(agent: str, records: RunRecords) -> Iterator[int]:
+    return (
+        record.stamp_ns
+        for record in records.tasks
+        if record.agent == agent and record.event.is_failed_attempt
+    )
+
+
 def _missed(window: Window, duration_s: float) -> str:
     longest_s = seconds(window.longest_ns)
     return (
@@ -233,10 +241,13 @@ def _missed(window: Window, duration_s: float) -> str:
 
 
 def _unsatisfied(scenario: Scenario, records: RunRecords, end_ns: int) -> Iterator[str]:
+    """Say whose task went unsatisfied too long; each failed attempt may have cost a window."""
     for agent in scenario.agents:
         moments_ns = [0, *_satisfied_ns(agent, records), end_ns]
         start_ns, stop_ns = max(pairwise(moments_ns), key=lambda gap: gap[1] - gap[0])
-        if stop_ns - start_ns > nanoseconds(patience_s(scenario, agent)):
+        failed = sum(start_ns < time_ns <= stop_ns for time_ns in _failed_ns(agent, records))
+        limit_s = patience_s(scenario, agent) + failed * scenario.communication.period_s
+        if stop_ns - start_ns > nanoseconds(limit_s):
             yield (
                 f"{agent}: task not satisfied from {seconds(start_ns):.3f} s "
                 f"to {seconds(stop_ns):.3f} s"
@@ -258,7 +269,7 @@ def _disagreements(scenario: Scenario, records: RunRecords) -> Iterator[str]:
 
 def _faults(records: RunRecords) -> Iterator[str]:
     for record in records.tasks:
-        if record.event.kind is TaskEventKind.FAULT:
+        if record.event.kind is TaskEventKind.FAULT and not record.event.is_failed_attempt:
             time_s = seconds(record.stamp_ns)
             yield f"{record.agent}: fault at {time_s:.3f} s: {record.event.detail}"
 

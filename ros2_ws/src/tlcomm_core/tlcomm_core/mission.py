@@ -22,7 +22,7 @@ class Mission:
 
     Attributes:
         site: the scenario.
-        seed: of all that is random in the world.
+        seed: of all that is random.
         rounds: the run ends D_c after the meeting of this round; or ``None``.
         until_s: the run ends at this simulated time; or ``None``.
     """

@@ -87,7 +87,8 @@ class _Harness:
         self.left = Simulated(RunRecords(messages_sent=dict.fromkeys(scenario.agents, 0)))
         atlas = Atlas(mission.site.grid)
         self._members: dict[str, Member] = {
-            name: create(name, mission.site, Pacing.EVENT, atlas) for name in scenario.agents
+            name: create(name, mission.site, Pacing.EVENT, atlas, mission.seed)
+            for name in scenario.agents
         }
         self._timed = {
             name: TimedMember(member, time.thread_time, time.time)

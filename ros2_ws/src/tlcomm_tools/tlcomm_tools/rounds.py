@@ -23,7 +23,7 @@ def pose_round(site: Site, number: int, seed: int) -> RoundProblem:
     Args:
         site: the scenario.
         number: the round, from 1 on.
-        seed: of all noise until then.
+        seed: of all that is random until then.
 
     Raises:
         InputError: the team doesn't get so far.

@@ -48,7 +48,7 @@ class RunOptions:
         scenario: the scenario.
         method: of coordination.
         solver: of the rounds.
-        seed: of all noise.
+        seed: of all that is random.
         pace: lock step or a factor.
         rounds: the run ends D_c after the meeting of this round, or ``None``.
         until_s: the run ends at this simulated time, or ``None``.
@@ -115,9 +115,10 @@ def run_mission(options: RunOptions, on_progress: Callable[[float, int], None]) 
 def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
     """Return the recorder, the sim and the agents, in the order in which they start."""
     scenario = ("--scenario", str(folder.scenario.absolute()))
-    common = (*scenario, "--pace", str(options.pace), "--recorder")
+    seed = ("--seed", str(options.seed))
+    common = (*scenario, *seed, "--pace", str(options.pace), "--recorder")
     limit_s = time_limit_s(options.scenario, options.rounds, options.until_s)
-    end: tuple[str, ...] = ("--seed", str(options.seed), "--until", repr(limit_s))
+    end: tuple[str, ...] = ("--until", repr(limit_s))
     if options.rounds is not None:
         end += ("--rounds", str(options.rounds))
 

@@ -14,9 +14,9 @@ from support.hand_made_run import (
     task,
     write_bag,
 )
-from tlcomm_core.agent.actions import TaskEventKind
+from tlcomm_core.agent.actions import TaskEvent, TaskEventKind
 from tlcomm_core.geometry import Pose
-from tlcomm_core.records import RunRecords
+from tlcomm_core.records import RunRecords, TaskRecord
 from tlcomm_tools.audit.findings import Audit, audit_run
 from tlcomm_tools.bag.reader import RecordedRun, read_run
 
@@ -238,6 +238,20 @@ def test_an_unsatisfied_task_is_found() -> None:
     assert found.violations == (
         "east: task not satisfied from 15.500 s to 47.000 s",
         "west: task not satisfied from 15.000 s to 47.000 s",
+    )
+
+
+def test_a_failed_attempt_leaves_the_task_a_window_more() -> None:
+    """So much the gap may be longer, and no more."""
+    records = hand_made_records()
+    last = [own for own in records.odometry if own.stamp_ns == 25 * S]
+    records.odometry += [
+        replace(own, stamp_ns=time_s * S) for time_s in range(26, 48) for own in last
+    ]
+    event = TaskEvent(TaskEventKind.FAULT, "left", "pick", 2, 3, "action=pick attempt=1")
+    records.tasks.append(TaskRecord(26 * S, "west", event))
+    assert audit(records, end_s=47.0).violations == (
+        "east: task not satisfied from 15.500 s to 47.000 s",
     )
 
 

@@ -59,6 +59,11 @@ class TaskEvent:
     plan_index: int
     detail: str = ""
 
+    @property
+    def is_failed_attempt(self) -> bool:
+        """Whether an action has failed, to be begun anew: a fault that the agent copes with."""
+        return self.kind is TaskEventKind.FAULT and bool(self.action)
+
 
 @dataclass(frozen=True, slots=True)
 class Drive:

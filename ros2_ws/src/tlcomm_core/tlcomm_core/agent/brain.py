@@ -7,8 +7,9 @@ What it is doing is one of four activities, in this cycle (Section IV-C of the p
 
 Meeting    at its place: negotiate the next meeting; leave at t_c + D_c.
 Driving    to the next step of its plan, or to the next place of meeting.
-Acting     at a step's region, until the step is done.
+Acting     at a step's region, until the step is done, or begun anew since its action failed.
            Steps go on, through prefix and suffix, up to h; then to z, and Meeting again.
+           (``itinerary``: up to fewer, if failures have taken the time.)
 
 At t = 0 the team is connected: the first odometry finds the agent at the meeting of round 0.
 """
@@ -19,8 +20,10 @@ from dataclasses import dataclass
 from tlcomm_core.agent.actions import Action, Drive, ReportTask, TaskEvent, TaskEventKind
 from tlcomm_core.agent.controller import Follower, Pacing
 from tlcomm_core.agent.events import Event, MessageHeard, OdometryReceived, TimePassed
+from tlcomm_core.agent.faults import ActionFaults
+from tlcomm_core.agent.itinerary import Itinerary
 from tlcomm_core.errors import LocalMisuseError
-from tlcomm_core.game.offer import MemberOffer, next_stops
+from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.geometry import Pose, wrap_angle
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
@@ -52,6 +55,8 @@ class Settings:
         rounds: poses round problems.
         position_tolerance_m: how far its controller may be off a waypoint.
         pacing: how often its controller is asked.
+        faults: which attempts at actions fail.
+        retries: how often a failed action is begun anew before the next meeting.
     """
 
     name: str
@@ -61,6 +66,8 @@ class Settings:
     rounds: Rounds
     position_tolerance_m: float
     pacing: Pacing
+    faults: ActionFaults
+    retries: int
 
 
 @dataclass(slots=True)
@@ -99,8 +106,7 @@ class Brain:
         self._odometry: OdometryReceived | None = None
         self._activity: _Driving | _Acting | _Meeting | None = None
         self._round = 0
-        self._done = -1
-        self._meeting: Strategy | None = None
+        self._itinerary = Itinerary(settings.plan, settings.travel, settings.retries)
         self._pose = Pose(0.0, 0.0, 0.0)
 
     @property
@@ -194,7 +200,7 @@ class Brain:
             yaw_rad=self._pose.yaw_rad,
             linear_mps=settings.travel.motion.linear_mps,
             angular_radps=settings.travel.motion.angular_radps,
-            stops=next_stops(settings.plan, self._done + 1, self._pose, settings.travel, horizon_s),
+            stops=self._itinerary.next_stops(self._pose, horizon_s),
         )
 
     def _next_change_s(self, meeting: _Meeting) -> float:
@@ -233,32 +239,23 @@ class Brain:
             return [self._report(TaskEventKind.FAULT, detail=detail)]
         actions: list[Action] = [self._report(TaskEventKind.MEETING_ENDED)]
         self._round = agreed.round
-        self._meeting = next(s for s in agreed.strategies if s.agent == self._settings.name)
+        own = next(s for s in agreed.strategies if s.agent == self._settings.name)
+        self._itinerary.agree(own, agreed.communication_s)
         return [*actions, *self._set_out(now_s)]
 
     # Driving and acting.
 
     def _set_out(self, now_s: float) -> list[Action]:
-        """Go to the next step or, after step h, to the meeting."""
-        meeting = self._meeting
-        if meeting is None:
-            raise LocalMisuseError("an agent set out before any meeting was agreed")
-        travel = self._settings.travel
-        if self._done < meeting.task_index:
-            leg = travel.leg_to(self._pose, self._settings.plan.step(self._done + 1).location)
-            meeting = None
-        else:
-            place = travel.grid.location_at(meeting.x_m, meeting.y_m)
-            if place is None:
-                raise LocalMisuseError(f"the agreed place of {meeting!r} isn't free")
-            leg = travel.leg_from(self._pose, place)
-        motion = travel.motion
+        """Go to the next step or, when it is time to, to the meeting."""
+        settings = self._settings
+        meeting = self._itinerary.next_meeting(self._pose, now_s)
+        leg = self._itinerary.leg(self._pose, meeting)
         follower = Follower(
             leg,
-            motion.linear_mps,
-            motion.angular_radps,
-            self._settings.position_tolerance_m,
-            self._settings.pacing,
+            settings.travel.motion.linear_mps,
+            settings.travel.motion.angular_radps,
+            settings.position_tolerance_m,
+            settings.pacing,
         )
         self._activity = _Driving(leg, follower, meeting, now_s)
         return []
@@ -280,22 +277,28 @@ class Brain:
         return [*actions, *self._reach_meeting(now_s, detail)]
 
     def _begin_step(self, now_s: float) -> list[Action]:
-        step = self._settings.plan.step(self._done + 1)
+        step = self._itinerary.step
         self._activity = _Acting(step, now_s + step.duration_s)
         if step.action is None:
             return []
-        return [self._report(TaskEventKind.ACTION_STARTED, step, self._done + 1)]
+        return [self._report(TaskEventKind.ACTION_STARTED, step, self._itinerary.done + 1)]
 
     def _act(self, acting: _Acting, now_s: float) -> list[Action]:
         if not self._is_due(acting.until_s, now_s):
             return []
-        self._done += 1
         has_acted = acting.step.action is not None
+        if has_acted and self._settings.faults.strikes():
+            return [self._fail(acting.step), *self._set_out(now_s)]
+        self._itinerary.finish_step()
         kind = TaskEventKind.ACTION_FINISHED if has_acted else TaskEventKind.REGION_VISITED
         actions: list[Action] = [self._report(kind, acting.step)]
         if acting.step.satisfies:
             actions.append(self._report(TaskEventKind.TASK_SATISFIED, acting.step))
         return [*actions, *self._set_out(now_s)]
+
+    def _fail(self, step: PlanStep) -> Action:
+        detail = f"action={step.action} attempt={self._itinerary.fail_step()}"
+        return self._report(TaskEventKind.FAULT, step, self._itinerary.done + 1, detail=detail)
 
     # Where and when it is.
 
@@ -336,7 +339,7 @@ class Brain:
                 region="" if step is None else step.region,
                 action="" if step is None or step.action is None else step.action,
                 round=self._round if round_ is None else round_,
-                plan_index=max(0, self._done) if plan_index is None else plan_index,
+                plan_index=max(0, self._itinerary.done) if plan_index is None else plan_index,
                 detail=detail,
             )
         )

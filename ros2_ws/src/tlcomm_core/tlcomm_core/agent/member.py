@@ -14,6 +14,7 @@ from tlcomm_core.agent.actions import Action
 from tlcomm_core.agent.brain import Brain, Settings
 from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
 from tlcomm_core.agent.events import MessageHeard, OdometryReceived, TimePassed
+from tlcomm_core.agent.faults import ActionFaults, fault_rng
 from tlcomm_core.agent.radio import Radio
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import PlanningError
@@ -149,7 +150,7 @@ def team_of(site: Site) -> Team:
     )
 
 
-def create(name: str, site: Site, pacing: Pacing, atlas: Atlas) -> Member:
+def create(name: str, site: Site, pacing: Pacing, atlas: Atlas, seed: int = 0) -> Member:
     """Return a member of the scenario's team, with its local plan made.
 
     Args:
@@ -157,6 +158,7 @@ def create(name: str, site: Site, pacing: Pacing, atlas: Atlas) -> Member:
         site: the scenario.
         pacing: how often its controller is asked.
         atlas: travel times on the scenario's grid; members in one process may share it.
+        seed: of what befalls it, the run's.
 
     Raises:
         PlanningError: the agent's task has no plan.
@@ -177,6 +179,8 @@ def create(name: str, site: Site, pacing: Pacing, atlas: Atlas) -> Member:
             rounds=MeetingRounds(atlas, team, allowance_s),
             position_tolerance_m=scenario.drive_of(name).position_tolerance_m,
             pacing=pacing,
+            faults=ActionFaults(scenario.faults.action_failure, fault_rng(seed, name)),
+            retries=scenario.faults.retries,
         )
     )
     # Free running, a message is heard when it comes; in lock step, one hop's latency after.

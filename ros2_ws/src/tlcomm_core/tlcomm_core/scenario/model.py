@@ -1,7 +1,8 @@
 """The scenario's fields, their types and ranges, one class per section of the file.
 
-``Scenario`` holds ``Workspace`` (with ``Region``), ``Communication``, ``Drive``, ``Noise`` and
-``Agent`` (with ``DriveOverride``). What fields mean together is checked in ``checks``.
+``Scenario`` holds ``Workspace`` (with ``Region``), ``Communication``, ``Drive``, ``Noise``,
+``Faults`` and ``Agent`` (with ``DriveOverride``). What fields mean together is checked in
+``checks``.
 """
 
 from typing import Annotated, Final
@@ -15,6 +16,7 @@ __all__ = [
     "Communication",
     "Drive",
     "DriveOverride",
+    "Faults",
     "Noise",
     "Region",
     "Scenario",
@@ -94,6 +96,13 @@ class Noise(_Section):
     angular: Share = 0.0
 
 
+class Faults(_Section):
+    """What goes wrong: the share of attempts at actions that fail, and how often to begin anew."""
+
+    action_failure: Share = 0.0
+    retries: Annotated[int, Field(ge=0, le=1000)] = 3
+
+
 class Agent(_Section):
     """Where an agent starts (x, y, yaw), its task, and what it has different from the team."""
 
@@ -111,6 +120,7 @@ class Scenario(_Section):
     communication: Communication
     motion: Drive
     noise: Noise = Noise()
+    faults: Faults = Faults()
     actions: Annotated[dict[Name, NotNegative], Field(max_length=MAX_REGIONS)] = {}
     agents: Annotated[dict[Name, Agent], Field(min_length=1, max_length=MAX_AGENTS)]
 

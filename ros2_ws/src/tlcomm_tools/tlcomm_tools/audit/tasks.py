@@ -86,7 +86,12 @@ def audit_task(
     satisfied_s = [steps[end - 1].stamp_ns * 1e-9 for end in count_fulfilled(part, word) if end]
     violations += _unfounded(agent, claimed_s, satisfied_s)
     gap_s, gap_from_s = _longest_gap([0.0, *satisfied_s, end_s])
-    limit_s = (_action_count(part, scenario, agent) + _SPARE_WINDOWS) * (
+    # Each attempt that failed may have cost a window.
+    failed = sum(
+        record.event.is_failed_attempt and gap_from_s < record.stamp_ns * 1e-9 <= gap_from_s + gap_s
+        for record in events
+    )
+    limit_s = (_action_count(part, scenario, agent) + _SPARE_WINDOWS + failed) * (
         scenario.communication.period_s
     )
     if gap_s > limit_s:

@@ -63,7 +63,6 @@ def _parser() -> argparse.ArgumentParser:
     agent = roles.add_parser("agent", help="an agent")
     agent.add_argument("--name", required=True)
     sim = roles.add_parser("sim", help="world and clock")
-    sim.add_argument("--seed", type=int, default=0)
     sim.add_argument("--rounds", type=int)
     sim.add_argument("--until", type=float, metavar="S")
     recorder = roles.add_parser("recorder", help="the recorder")
@@ -72,6 +71,7 @@ def _parser() -> argparse.ArgumentParser:
     for role in (agent, sim):
         role.add_argument("--scenario", required=True)
         role.add_argument("--pace", required=True)
+        role.add_argument("--seed", type=int, default=0)
         role.add_argument("--recorder", action="store_true", help="wait for a recorder")
     agent.set_defaults(work=_be_agent)
     sim.set_defaults(work=_be_sim)
@@ -102,7 +102,6 @@ def _be_sim(arguments: argparse.Namespace, notifier: Notifier) -> int:
     chosen = {"rounds": arguments.rounds, "until_s": arguments.until}
     parameters = [
         *_common(arguments),
-        Parameter("seed", value=arguments.seed),
         *(Parameter(name, value=value) for name, value in chosen.items() if value is not None),
     ]
     return live(
@@ -131,6 +130,7 @@ def _common(arguments: argparse.Namespace) -> list[Parameter]:
     return [
         Parameter("scenario", value=arguments.scenario),
         Parameter("pace", value=arguments.pace),
+        Parameter("seed", value=arguments.seed),
         Parameter("recorder", value=arguments.recorder),
     ]
 

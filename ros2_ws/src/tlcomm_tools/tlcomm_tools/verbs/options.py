@@ -145,7 +145,11 @@ def add_mission_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"of the rounds: {', '.join(SOLVERS)}",
     )
     parser.add_argument(
-        "--seed", type=not_negative_int, default=0, metavar="N", help="of all noise (default 0)"
+        "--seed",
+        type=not_negative_int,
+        default=0,
+        metavar="N",
+        help="of all that is random (default 0)",
     )
     parser.add_argument(
         "--out",

@@ -30,7 +30,11 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     parser.add_argument("--out", type=Path, metavar="FILE", help="write the JSON document here")
     parser.add_argument(
-        "--seed", type=not_negative_int, default=0, metavar="N", help="of all noise (default 0)"
+        "--seed",
+        type=not_negative_int,
+        default=0,
+        metavar="N",
+        help="of all that is random (default 0)",
     )
 
 

@@ -1,0 +1,127 @@
+"""What an agent does between two meetings: steps of its plan, then the way to the next meeting.
+
+``Itinerary``  the plan, how far it is done, and when to leave it for the meeting
+
+As agreed, an agent goes to meet after its step h. An action that fails is begun anew at once, and
+takes time that nobody reckoned with. From then on each step, and each further attempt, is begun
+only if it can be finished and the place still reached by t_c. So an agent leaves for the meeting
+after fewer steps rather than late; what is left comes after the meeting, from the step that failed.
+
+This never comes too late: from where an attempt has just failed, the way straight to the meeting
+is no longer than the rest of what had fitted in, which leads there too.
+"""
+
+from typing import Final
+
+from tlcomm_core.errors import LocalMisuseError
+from tlcomm_core.game.offer import PlannedStop, next_stops
+from tlcomm_core.game.strategy import Strategy
+from tlcomm_core.geometry import Pose
+from tlcomm_core.planning.plan import LocalPlan, PlanStep
+from tlcomm_core.workspace.travel import Leg, TravelTimes
+
+__all__ = ["Itinerary"]
+
+# What sums of times may be off by, each rounded to nanoseconds.
+_ROUNDING_S: Final = 1e-6
+
+
+class Itinerary:
+    """The plan, how far it is done, and when to leave it for the meeting.
+
+    Attributes:
+        done: index of the last step done; −1 before the first.
+    """
+
+    def __init__(self, plan: LocalPlan, travel: TravelTimes, retries: int) -> None:
+        """Begin with the plan's first step.
+
+        Args:
+            plan: what to do.
+            travel: travel times with the agent's own motion.
+            retries: how often a failed action is begun anew before the next meeting.
+        """
+        self.done = -1
+        self._plan = plan
+        self._travel: Final = travel
+        self._retries: Final = retries
+        self._meeting: Strategy | None = None
+        self._meeting_s = 0.0
+        self._failures = 0
+        self._is_delayed = False
+
+    @property
+    def step(self) -> PlanStep:
+        """The step to do next, or under way."""
+        return self._plan.step(self.done + 1)
+
+    def agree(self, meeting: Strategy, meeting_s: float) -> None:
+        """Take the agent's own part in what the team has agreed on.
+
+        Args:
+            meeting: where to be, and after which step.
+            meeting_s: t_c, when the team is to be there.
+        """
+        self._meeting = meeting
+        self._meeting_s = meeting_s
+        self._failures = 0
+        self._is_delayed = False
+
+    def finish_step(self) -> None:
+        """Note that the step has been done."""
+        self.done += 1
+        self._failures = 0
+
+    def fail_step(self) -> int:
+        """Note that the step's action has failed; return how often it has since the meeting."""
+        self._failures += 1
+        self._is_delayed = True
+        return self._failures
+
+    def next_meeting(self, pose: Pose, now_s: float) -> Strategy | None:
+        """Return the meeting if it is time to go there; ``None`` if a step comes first.
+
+        Args:
+            pose: where the agent is to set out from.
+            now_s: the time.
+        """
+        meeting = self._agreed()
+        if self.done >= meeting.task_index:
+            return meeting
+        if not self._is_delayed:
+            return None
+        is_possible = self._failures <= self._retries and self._has_time(pose, now_s)
+        return None if is_possible else meeting
+
+    def leg(self, pose: Pose, meeting: Strategy | None) -> Leg:
+        """Return the way to a meeting or, with ``None``, to the next step."""
+        if meeting is None:
+            return self._travel.leg_to(pose, self.step.location)
+        return self._travel.leg_from(pose, self._place(meeting))
+
+    def next_stops(self, pose: Pose, horizon_s: float) -> tuple[PlannedStop, ...]:
+        """Return the next steps with the times and poses at which they are finished.
+
+        Args:
+            pose: where the agent stands at the present meeting.
+            horizon_s: time from the departure to the end of the window to plan.
+        """
+        return next_stops(self._plan, self.done + 1, pose, self._travel, horizon_s)
+
+    def _has_time(self, pose: Pose, now_s: float) -> bool:
+        """Return whether the next step can be done before the meeting."""
+        there = self.leg(pose, None)
+        onward = self.leg(there.arrival, self._agreed())
+        needed_s = there.duration_s + self.step.duration_s + onward.duration_s
+        return now_s + needed_s <= self._meeting_s + _ROUNDING_S
+
+    def _agreed(self) -> Strategy:
+        if self._meeting is None:
+            raise LocalMisuseError("an agent set out before any meeting was agreed")
+        return self._meeting
+
+    def _place(self, meeting: Strategy) -> int:
+        place = self._travel.grid.location_at(meeting.x_m, meeting.y_m)
+        if place is None:
+            raise LocalMisuseError(f"the agreed place of {meeting!r} isn't free")
+        return place

@@ -1,0 +1,101 @@
+"""How far an agent goes on with its plan before it leaves for the meeting."""
+
+import pytest
+
+from support.small_plant import START, SmallPlant
+from tlcomm_core.agent.itinerary import Itinerary
+from tlcomm_core.errors import LocalMisuseError
+from tlcomm_core.game.strategy import Strategy
+from tlcomm_core.geometry import Pose
+from tlcomm_core.ltl import parse
+from tlcomm_core.planning.synthesis import plan_task
+
+PLANT = SmallPlant()
+PLAN = plan_task(parse("G F ((p & collect) & F (r & unload))"), PLANT.system())
+# Whose attempt fails, at the region of the step.
+STEP = next(index for index in range(10) if PLAN.step(index).action == "collect")
+PLACE = Pose(1.75, 0.25, 0.0)
+RETRIES = 2
+
+
+def at_the_action(task_index: int, meeting_s: float) -> tuple[Itinerary, Pose]:
+    """Return an itinerary with all done before the action, and where the agent is then."""
+    itinerary = Itinerary(PLAN, PLANT.times, RETRIES)
+    meeting = Strategy("one", PLACE.x_m, PLACE.y_m, task_index, meeting_s, 0.0)
+    itinerary.agree(meeting, meeting_s)
+    pose = START
+    for _ in range(STEP):
+        pose = itinerary.leg(pose, None).arrival
+        itinerary.finish_step()
+    return itinerary, itinerary.leg(pose, None).arrival
+
+
+def needed_s(itinerary: Itinerary, pose: Pose) -> float:
+    """Return what one more attempt and the way to the meeting take."""
+    place = PLANT.times.grid.location_at(PLACE.x_m, PLACE.y_m)
+    assert place is not None
+    return itinerary.step.duration_s + PLANT.times.leg_from(pose, place).duration_s
+
+
+def test_without_failures_step_h_decides() -> None:
+    """However late it is: steps up to h come first, then the meeting."""
+    itinerary, pose = at_the_action(STEP, 0.0)
+    assert itinerary.next_meeting(pose, 1000.0) is None
+    itinerary.finish_step()
+    meeting = itinerary.next_meeting(pose, 0.0)
+    assert meeting is not None
+    arrival = itinerary.leg(pose, meeting).arrival
+    assert arrival.distance_m(PLACE.x_m, PLACE.y_m) == 0.0
+
+
+def test_after_a_failure_time_decides() -> None:
+    """Another attempt begins if it can end, and the place be reached, by t_c; not if it can't."""
+    itinerary, pose = at_the_action(STEP + 5, 100.0)
+    latest_s = 100.0 - needed_s(itinerary, pose)
+    assert itinerary.fail_step() == 1
+    assert itinerary.next_meeting(pose, latest_s) is None
+    assert itinerary.next_meeting(pose, latest_s + 1e-3) is not None
+    assert itinerary.step == PLAN.step(STEP)
+
+
+def test_after_a_failure_time_decides_on_later_steps_too() -> None:
+    """What the failure cost is lacking until the meeting."""
+    itinerary, pose = at_the_action(STEP + 5, 100.0)
+    itinerary.fail_step()
+    itinerary.finish_step()
+    assert itinerary.next_meeting(pose, 0.0) is None
+    assert itinerary.next_meeting(pose, 99.0) is not None
+
+
+def test_the_retries_are_counted_from_meeting_to_meeting() -> None:
+    """After the last it goes to meet, however early; after the meeting it begins anew."""
+    itinerary, pose = at_the_action(STEP + 5, 1e6)
+    for attempt in range(1, RETRIES + 2):
+        assert itinerary.next_meeting(pose, 0.0) is None
+        assert itinerary.fail_step() == attempt
+    meeting = itinerary.next_meeting(pose, 0.0)
+    assert meeting is not None
+    itinerary.agree(meeting, 1e6)
+    assert itinerary.next_meeting(pose, 0.0) is None
+    assert itinerary.done == STEP - 1
+
+
+def test_after_a_failure_the_way_to_the_meeting_is_in_time() -> None:
+    """Whenever an attempt was begun, the place is reached by t_c though it fails."""
+    itinerary, pose = at_the_action(STEP + 5, 100.0)
+    now_s = 60.0
+    itinerary.fail_step()
+    meeting = None
+    while meeting is None:
+        meeting = itinerary.next_meeting(pose, now_s)
+        if meeting is None:
+            leg = itinerary.leg(pose, None)
+            pose, now_s = leg.arrival, now_s + leg.duration_s + itinerary.step.duration_s
+            itinerary.finish_step()
+    assert now_s + itinerary.leg(pose, meeting).duration_s <= 100.0 + 1e-6
+
+
+def test_nothing_is_done_before_an_agreement() -> None:
+    """Setting out without one is a bug."""
+    with pytest.raises(LocalMisuseError, match="before any meeting"):
+        Itinerary(PLAN, PLANT.times, RETRIES).next_meeting(START, 0.0)
