@@ -59,7 +59,7 @@ tlcomm_inputs() {
   sha256sum scripts/setup.bash scripts/relocate_exports.cmake \
     requirements/{bootstrap,"$tlcomm_kind",cmake}.lock \
     ros2_ws/src/*/package.xml ros2_ws/src/*/setup.* ros2_ws/src/*/CMakeLists.txt \
-    ros2_ws/src/*/msg/*
+    ros2_ws/src/*/{msg,srv}/*
 }
 
 tlcomm_digest() {

@@ -4,18 +4,21 @@ import os
 import signal
 import subprocess
 import sys
+import threading
+from typing import Any
 
 import pytest
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import Clock, ROSClock
 from rclpy.clock_type import ClockType
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.time import Time
 from std_msgs.msg import UInt64
 
+from tlcomm_msgs.srv import ChangeTask
 from tlcomm_tools.runtime import spin as module
 from tlcomm_tools.runtime.spin import Spin, spin, spin_executor, spin_fast
 
@@ -123,6 +126,34 @@ def test_what_may_not_be_executed_waits(context: Context, way: Spin) -> None:
 
 
 @pytest.mark.parametrize("way", SPINS)
+def test_services_answer(context: Context, way: Spin) -> None:
+    """Each request gets its own response, also of several that come together."""
+    node, asker = node_of(context), node_of(context, "asker")
+    answers: list[Any] = []
+
+    def answer(request: ChangeTask.Request, response: ChangeTask.Response) -> ChangeTask.Response:
+        response.message = f"not {request.task}"
+        return response
+
+    def ask() -> None:
+        client = asker.create_client(ChangeTask, "change_task")
+        executor = SingleThreadedExecutor(context=context)
+        executor.add_node(asker)
+        assert client.wait_for_service(10.0)
+        calls = [client.call_async(ChangeTask.Request(task=task)) for task in "abc"]
+        for call in calls:
+            executor.spin_until_future_complete(call, 10.0)
+            answers.append(call.result().message)
+        executor.shutdown()
+
+    node.create_service(ChangeTask, "change_task", answer)
+    thread = threading.Thread(target=ask)
+    thread.start()
+    way(node, lambda: not thread.is_alive())
+    assert answers == ["not a", "not b", "not c"]
+
+
+@pytest.mark.parametrize("way", SPINS)
 def test_errors_of_callbacks_come_through(context: Context, way: Spin) -> None:
     """What a callback raises ends the spin."""
     node = node_of(context)
@@ -181,9 +212,12 @@ def test_timers_keep_simulated_time(context: Context, way: Spin) -> None:
 
 
 def test_way_is_chosen(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The wait set serves nodes without services, as long as rclpy has one."""
-    assert module._can_spin_fast(node_of(context))
-    assert not module._can_spin_fast(Node("full", context=context, use_global_arguments=False))
+    """The wait set serves nodes without clients, as long as rclpy has one."""
+    node = node_of(context)
+    assert module._can_spin_fast(node)
+    assert module._can_spin_fast(Node("full", context=context, use_global_arguments=False))
+    node.create_client(ChangeTask, "change_task")
+    assert not module._can_spin_fast(node)
     monkeypatch.delattr(module.rclpy_implementation, "WaitSet")
     assert not module._can_spin_fast(node_of(context, "other"))
 

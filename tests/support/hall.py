@@ -21,10 +21,12 @@ from tlcomm_core.agent.controller import Pacing
 from tlcomm_core.agent.events import MessageHeard, OdometryReceived, TimePassed
 from tlcomm_core.agent.member import Member, create
 from tlcomm_core.geometry import Pose
+from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.scenario.loader import loads
 from tlcomm_core.scenario.model import Faults
 from tlcomm_core.scenario.site import Site
+from tlcomm_core.units import nanoseconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.world.unicycle import integrate
 
@@ -82,7 +84,8 @@ class LoneAgent:
 
     def __post_init__(self) -> None:
         """Stand at the start, and see it."""
-        self.brain = make_member(self.name, self.count, faults=self.faults)._brain
+        self.member = make_member(self.name, self.count, faults=self.faults)
+        self.brain = self.member._brain
         self.pose = Pose(*STARTS[self.name])
         self.velocity = Drive(0.0, 0.0)
         self._show_odometry()
@@ -111,6 +114,10 @@ class LoneAgent:
         for message in messages:
             self._take(self.brain.handle(MessageHeard(message), self.now_s))
         self.act()
+
+    def change_task(self, task: str) -> LocalPlan:
+        """Give it another task now; return the plan."""
+        return self.member.change_task(task, nanoseconds(self.now_s))
 
     def act(self) -> None:
         """Let the brain do what is due."""

@@ -23,7 +23,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 
-from tlcomm_agent import wire
+from tlcomm_agent import tasking, wire
 from tlcomm_agent.arrivals import Arrivals
 from tlcomm_agent.config import AgentConfig
 from tlcomm_core.agent import actions
@@ -34,7 +34,7 @@ from tlcomm_core.errors import InputError, PlanningError, TlcommError
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.workspace.atlas import Atlas
-from tlcomm_msgs import msg
+from tlcomm_msgs import msg, srv
 
 __all__ = ["AgentNode", "main"]
 
@@ -130,7 +130,7 @@ class AgentNode(Node):
         self._neighbours = frozenset[str]()
         self._attended: Container[str] = self.config.others if self._is_lockstep else ()
         self._create_publishers()
-        self._create_subscriptions()
+        self._create_listeners()
         self._steady: Final = Clock(clock_type=ClockType.STEADY_TIME)
         self._ready_timer: Final = self.create_timer(
             _READY_PERIOD_S, self._say_ready, clock=self._steady
@@ -157,7 +157,7 @@ class AgentNode(Node):
             for topic, kind in wire.TYPES.items()
         }
 
-    def _create_subscriptions(self) -> None:
+    def _create_listeners(self) -> None:
         subscribe = self.create_subscription
         self._tick_sub = subscribe(msg.Tick, "tick", self._take_tick, _DEPTH)
         own = [
@@ -176,6 +176,7 @@ class AgentNode(Node):
             for topic in wire.TEAM_TYPES
         ]
         self._own_subscriptions = (*own, *team)
+        self.create_service(srv.ChangeTask, "change_task", self._change_task)
 
     def _subscribe_team(self, other: str, topic: str) -> Any:  # noqa: ANN401 (rclpy's are opaque)
         kind = wire.TEAM_TYPES[topic]
@@ -214,6 +215,16 @@ class AgentNode(Node):
         self._neighbours, stamp_ns = wire.decode_neighbours(message, self.config.name)
         self._member.see_neighbours(stamp_ns, self._neighbours)
         self._attend()
+
+    def _change_task(self, request: Any, response: Any) -> Any:  # noqa: ANN401 (rclpy's are opaque)
+        """Stand still while the plan for another task is made, which may take a second."""
+        answer = tasking.IN_LOCKSTEP
+        if not self._is_lockstep:
+            now_ns = self._now_ns()
+            self._perform(actions.Drive(0.0, 0.0), now_ns)
+            answer = tasking.change_task(self._member, request.task, now_ns)
+        response.accepted, response.message = answer
+        return response
 
     def _attend(self) -> None:
         """Choose whose messages are to be taken; in lock step all are."""

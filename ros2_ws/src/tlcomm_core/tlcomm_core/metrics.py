@@ -241,8 +241,12 @@ def _missed(window: Window, duration_s: float) -> str:
 
 
 def _unsatisfied(scenario: Scenario, records: RunRecords, end_ns: int) -> Iterator[str]:
-    """Say whose task went unsatisfied too long; each failed attempt may have cost a window."""
-    for agent in scenario.agents:
+    """Say whose task went unsatisfied too long; each failed attempt may have cost a window.
+
+    How long another task than the scenario's may take isn't known.
+    """
+    changed = {r.agent for r in records.tasks if r.event.kind is TaskEventKind.TASK_CHANGED}
+    for agent in (name for name in scenario.agents if name not in changed):
         moments_ns = [0, *_satisfied_ns(agent, records), end_ns]
         start_ns, stop_ns = max(pairwise(moments_ns), key=lambda gap: gap[1] - gap[0])
         failed = sum(start_ns < time_ns <= stop_ns for time_ns in _failed_ns(agent, records))

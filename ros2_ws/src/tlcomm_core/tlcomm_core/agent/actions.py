@@ -37,6 +37,7 @@ class TaskEventKind(IntEnum):
     ROUND_AGREED = 7
     FAULT = 8
     REGION_VISITED = 9
+    TASK_CHANGED = 10
 
 
 @dataclass(frozen=True, slots=True)

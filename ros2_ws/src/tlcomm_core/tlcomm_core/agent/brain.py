@@ -19,12 +19,18 @@ from dataclasses import dataclass
 
 from tlcomm_core.agent.actions import Action, Drive, ReportTask, TaskEvent, TaskEventKind
 from tlcomm_core.agent.controller import Follower, Pacing
-from tlcomm_core.agent.events import Event, MessageHeard, OdometryReceived, TimePassed
+from tlcomm_core.agent.events import (
+    Event,
+    MessageHeard,
+    OdometryReceived,
+    TaskChanged,
+    TimePassed,
+)
 from tlcomm_core.agent.faults import ActionFaults
 from tlcomm_core.agent.itinerary import Itinerary
 from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.game.offer import MemberOffer
-from tlcomm_core.game.strategy import Strategy
+from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose, wrap_angle
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
 from tlcomm_core.protocol.actions import CountIgnored
@@ -94,6 +100,7 @@ class _Meeting:
 
     negotiation: Negotiation
     has_started: bool = False
+    is_agreed: bool = False
     is_overdue: bool = False
 
 
@@ -123,6 +130,14 @@ class Brain:
     def awaited(self) -> str | None:
         """A member without whose word a meeting can't go on; ``None`` if anyone's may matter."""
         return self._activity.negotiation.awaited if isinstance(self._activity, _Meeting) else None
+
+    @property
+    def next_start(self) -> Pose | None:
+        """Where the agent will be when another plan can begin; ``None`` until that is agreed."""
+        is_agreeing = isinstance(self._activity, _Meeting) and not self._activity.is_agreed
+        if self._activity is None or is_agreeing:
+            return None
+        return self._itinerary.meeting_pose(self._pose)
 
     @property
     def next_need_s(self) -> float:
@@ -157,6 +172,9 @@ class Brain:
                 if isinstance(self._activity, _Meeting):
                     return self._activity.negotiation.hear(message)
                 return (CountIgnored("not meeting"),)
+            case TaskChanged():
+                self._itinerary.change(event)
+                return ()
             case TimePassed():
                 return tuple(self._proceed(now_s))
 
@@ -180,12 +198,15 @@ class Brain:
     # Meeting.
 
     def _reach_meeting(self, now_s: float, detail: str = "") -> list[Action]:
+        actions: list[Action] = [self._report(TaskEventKind.MEETING_REACHED, detail=detail)]
+        if (change := self._itinerary.reach_meeting()) is not None:
+            actions.append(self._report(TaskEventKind.TASK_CHANGED, detail=f"task={change.task}"))
         self._activity = _Meeting(
             Negotiation(
                 self._offer(now_s), self._round + 1, self._settings.team, self._settings.rounds
             )
         )
-        return [self._report(TaskEventKind.MEETING_REACHED, detail=detail)]
+        return actions
 
     def _offer(self, now_s: float) -> MemberOffer:
         settings = self._settings
@@ -212,13 +233,14 @@ class Brain:
 
     def _meet(self, meeting: _Meeting, now_s: float) -> list[Action]:
         negotiation = meeting.negotiation
-        was_agreed = negotiation.agreed is not None
         actions: list[Action] = [*negotiation.proceed(now_s)]
         if self._is_due(self._next_change_s(meeting), now_s) and not meeting.has_started:
             meeting.has_started = True
             detail = f"t_c_s={negotiation.meeting_s:.9f}"
             actions.append(self._report(TaskEventKind.MEETING_STARTED, detail=detail))
-        if negotiation.agreed is not None and not was_agreed:
+        if negotiation.agreed is not None and not meeting.is_agreed:
+            meeting.is_agreed = True
+            self._agree(negotiation.agreed)
             actions.append(self._report(TaskEventKind.ROUND_AGREED, round_=negotiation.round))
         if meeting.has_started and self._is_due(self._departure_s(meeting), now_s):
             actions += self._end_meeting(meeting, now_s)
@@ -228,19 +250,20 @@ class Brain:
         starts_s = meeting.negotiation.meeting_s
         return math.inf if starts_s is None else starts_s + self._settings.team.duration_s
 
+    def _agree(self, agreed: TeamStrategy) -> None:
+        own = next(s for s in agreed.strategies if s.agent == self._settings.name)
+        self._itinerary.agree(own, agreed.communication_s)
+
     def _end_meeting(self, meeting: _Meeting, now_s: float) -> list[Action]:
         """Leave with an agreement; without one stay, since leaving would scatter the team."""
-        agreed = meeting.negotiation.agreed
-        if agreed is None:
+        if not meeting.is_agreed:
             if meeting.is_overdue:
                 return []
             meeting.is_overdue = True
             detail = f"no agreement on round {meeting.negotiation.round} when the meeting ended"
             return [self._report(TaskEventKind.FAULT, detail=detail)]
         actions: list[Action] = [self._report(TaskEventKind.MEETING_ENDED)]
-        self._round = agreed.round
-        own = next(s for s in agreed.strategies if s.agent == self._settings.name)
-        self._itinerary.agree(own, agreed.communication_s)
+        self._round = meeting.negotiation.round
         return [*actions, *self._set_out(now_s)]
 
     # Driving and acting.

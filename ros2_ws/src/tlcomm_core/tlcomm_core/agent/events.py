@@ -2,6 +2,7 @@
 
 ``OdometryReceived``  where it is and how it moves
 ``MessageHeard``      a neighbour's message that the radio let through
+``TaskChanged``       another task was given to it, and a plan made
 ``TimePassed``        nothing but that it is later now
 ``Event``             any of them
 """
@@ -9,9 +10,10 @@
 from dataclasses import dataclass
 
 from tlcomm_core.geometry import Pose
+from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.protocol.messages import Message
 
-__all__ = ["Event", "MessageHeard", "OdometryReceived", "TimePassed"]
+__all__ = ["Event", "MessageHeard", "OdometryReceived", "TaskChanged", "TimePassed"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,8 +34,21 @@ class MessageHeard:
 
 
 @dataclass(frozen=True, slots=True)
+class TaskChanged:
+    """Another task was given to the agent.
+
+    Attributes:
+        task: its formula's text.
+        plan: its plan, from where the next meeting is.
+    """
+
+    task: str
+    plan: LocalPlan
+
+
+@dataclass(frozen=True, slots=True)
 class TimePassed:
     """The time that the brain had asked for has come, or any other."""
 
 
-Event = OdometryReceived | MessageHeard | TimePassed
+Event = OdometryReceived | MessageHeard | TaskChanged | TimePassed

@@ -9,10 +9,14 @@ after fewer steps rather than late; what is left comes after the meeting, from t
 
 This never comes too late: from where an attempt has just failed, the way straight to the meeting
 is no longer than the rest of what had fitted in, which leads there too.
+
+The agreed h counts the plan's steps, and others reckon with them. So another plan begins at the
+next meeting, with what the agent offers there.
 """
 
 from typing import Final
 
+from tlcomm_core.agent.events import TaskChanged
 from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.game.offer import PlannedStop, next_stops
 from tlcomm_core.game.strategy import Strategy
@@ -49,6 +53,7 @@ class Itinerary:
         self._meeting_s = 0.0
         self._failures = 0
         self._is_delayed = False
+        self._change: TaskChanged | None = None
 
     @property
     def step(self) -> PlanStep:
@@ -66,6 +71,29 @@ class Itinerary:
         self._meeting_s = meeting_s
         self._failures = 0
         self._is_delayed = False
+
+    def change(self, change: TaskChanged) -> None:
+        """Note another plan; it begins at the next meeting, unless yet another comes before."""
+        self._change = change
+
+    def reach_meeting(self) -> TaskChanged | None:
+        """Begin the other plan, if there is one; return what has changed."""
+        change, self._change = self._change, None
+        if change is not None:
+            self._plan = change.plan
+            self.done = -1
+        return change
+
+    def meeting_pose(self, pose: Pose) -> Pose:
+        """Return where the agent will be at the meeting if nothing fails.
+
+        Args:
+            pose: where the agent has set out from.
+        """
+        meeting = self._agreed()
+        for index in range(self.done + 1, meeting.task_index + 1):
+            pose = self._travel.leg_to(pose, self._plan.step(index).location).arrival
+        return self.leg(pose, meeting).arrival
 
     def finish_step(self) -> None:
         """Note that the step has been done."""

@@ -4,20 +4,23 @@
 ``create``      a member from a scenario
 ``team_of``     what all its members know
 ``local_plan``  an agent's plan for its task
+``plan_for``    its plan for another task
 ``check_tasks``  whether all agents have one
 """
 
 import math
+from collections.abc import Callable
+from dataclasses import replace
 from typing import Final
 
 from tlcomm_core.agent.actions import Action
 from tlcomm_core.agent.brain import Brain, Settings
 from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
-from tlcomm_core.agent.events import MessageHeard, OdometryReceived, TimePassed
+from tlcomm_core.agent.events import MessageHeard, OdometryReceived, TaskChanged, TimePassed
 from tlcomm_core.agent.faults import ActionFaults, fault_rng
 from tlcomm_core.agent.radio import Radio
 from tlcomm_core.agent.rounds import MeetingRounds
-from tlcomm_core.errors import PlanningError
+from tlcomm_core.errors import InputError, PlanningError
 from tlcomm_core.geometry import Pose
 from tlcomm_core.ltl import parse
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective
@@ -28,12 +31,16 @@ from tlcomm_core.protocol.actions import CountIgnored
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.protocol.negotiation import Phase
 from tlcomm_core.protocol.team import Team
+from tlcomm_core.scenario.checks import check_formulas
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import TravelTimes
 
-__all__ = ["Member", "check_tasks", "create", "local_plan", "team_of"]
+__all__ = ["Member", "Planner", "check_tasks", "create", "local_plan", "plan_for", "team_of"]
+
+Planner = Callable[[str, Pose], LocalPlan]
+"""Makes an agent's plan for a task (its text) from a pose; raises InputError or PlanningError."""
 
 # What a periodic controller may lose at the end of a turn or a straight: the rest of its period
 # and a late timer.
@@ -43,11 +50,12 @@ _ALLOWANCE_S: Final = {Pacing.EVENT: 0.0, Pacing.PERIODIC: 1.2 * CONTROL_PERIOD_
 class Member:
     """One agent: what its radio lets through and its odometry reach its brain, at given times."""
 
-    def __init__(self, name: str, brain: Brain, radio: Radio) -> None:
-        """Join a brain and a radio."""
+    def __init__(self, name: str, brain: Brain, radio: Radio, planner: Planner) -> None:
+        """Join a brain and a radio, with what makes plans for other tasks."""
         self.name: Final = name
         self._brain = brain
         self._radio = radio
+        self._planner = planner
         self._odometry: list[OdometryReceived] = []
         self._next_need_ns: int | None = None
 
@@ -84,6 +92,23 @@ class Member:
     def receive(self, message: Message, sent_ns: int) -> None:
         """Take a message off the air; the radio decides whether the brain hears it."""
         self._radio.receive(message, sent_ns)
+
+    def change_task(self, task: str, now_ns: int) -> LocalPlan:
+        """Plan for another task, to be begun at the next meeting; return the plan.
+
+        The old task goes on until then, or for good if there is no plan. Of several changes before
+        one meeting the last counts.
+
+        Raises:
+            InputError: the task isn't a formula over the agent's regions and actions.
+            PlanningError: there is no plan, or it isn't agreed yet where the next meeting is.
+        """
+        start = self._brain.next_start
+        if start is None:
+            raise PlanningError("the next meeting isn't agreed on yet: ask again when it is")
+        plan = self._planner(task, start)
+        self._brain.handle(TaskChanged(task, plan), seconds(now_ns))
+        return plan
 
     def step(self, now_ns: int) -> tuple[Action, ...]:
         """Do all that is due by now.
@@ -126,6 +151,21 @@ def local_plan(
         return plan_task(parse(site.scenario.agents[name].task), system, objective)
     except PlanningError as error:
         raise type(error)(f"agents.{name}.task: {error}") from error
+
+
+def plan_for(task: str, start: Pose, name: str, site: Site, travel: TravelTimes) -> LocalPlan:
+    """Return an agent's plan for another task than the scenario's, from another start.
+
+    Raises:
+        InputError: the task isn't a formula over the scenario's regions and the agent's actions.
+        PlanningError: there is no plan.
+    """
+    pose = (start.x_m, start.y_m, start.yaw_rad)
+    agent = site.scenario.agents[name].model_copy(update={"task": task, "start": pose})
+    scenario = site.scenario.model_copy(update={"agents": {name: agent}})
+    for finding in check_formulas(scenario):
+        raise InputError(f"task: {finding.what}")
+    return local_plan(name, replace(site, scenario=scenario), travel)
 
 
 def check_tasks(site: Site) -> None:
@@ -185,4 +225,5 @@ def create(name: str, site: Site, pacing: Pacing, atlas: Atlas, seed: int = 0) -
     )
     # Free running, a message is heard when it comes; in lock step, one hop's latency after.
     latency_s = scenario.communication.hop_latency_s if pacing is Pacing.EVENT else 0.0
-    return Member(name, brain, Radio(nanoseconds(latency_s)))
+    radio = Radio(nanoseconds(latency_s))
+    return Member(name, brain, radio, lambda task, start: plan_for(task, start, name, site, travel))

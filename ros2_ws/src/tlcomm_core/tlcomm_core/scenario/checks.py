@@ -2,6 +2,7 @@
 
 ``Finding``  one thing wrong, and its place in the file
 ``check``    all findings of a scenario
+``check_formulas``  those of its tasks' texts alone
 """
 
 import difflib
@@ -20,7 +21,7 @@ from tlcomm_core.scenario.model import Scenario, Workspace
 from tlcomm_core.scenario.site import grid_of, region_location
 from tlcomm_core.workspace.grid import Grid
 
-__all__ = ["MAX_CELLS", "Finding", "check", "did_you_mean"]
+__all__ = ["MAX_CELLS", "Finding", "check", "check_formulas", "did_you_mean"]
 
 MAX_CELLS: Final = 1_000_000
 # Names of topics and nodes beside which an agent's namespace would be taken for something else.
@@ -52,6 +53,11 @@ def check(scenario: Scenario) -> list[Finding]:
     if findings:
         return findings
     return [*_connectivity(scenario), *_reachability(scenario, grid)]
+
+
+def check_formulas(scenario: Scenario) -> list[Finding]:
+    """Return what is wrong with the texts of the agents' tasks; empty if nothing."""
+    return [*_tasks(scenario)]
 
 
 def did_you_mean(name: str, known: Collection[str]) -> str:

@@ -40,7 +40,7 @@ class TaskFinding:
         agent: whose.
         claimed: how often it said that its task was satisfied.
         satisfied: how often it was, or ``None`` for tasks of which no finite part tells it: all
-            but □◇φ with co-safe φ.
+            but □◇φ with co-safe φ, and those changed on the way.
         longest_gap_s: the longest time without a satisfaction, or ``None`` likewise.
         violations: one line each.
     """
@@ -79,7 +79,8 @@ def audit_task(
     ]
     violations = [*_misplaced(scenario, agent, events, track), *_hasty(scenario, agent, events)]
     part = recurring_part(read_formula(scenario.agents[agent].task))
-    if part is None:
+    is_changed = any(own.event.kind is TaskEventKind.TASK_CHANGED for own in events)
+    if part is None or is_changed:
         return TaskFinding(agent, len(claimed_s), None, None, tuple(violations))
     word = [_initial_letter(scenario, agent), *(_letter(scenario, step, track) for step in steps)]
     # What holds where it started needs no step, and is claimed by none.

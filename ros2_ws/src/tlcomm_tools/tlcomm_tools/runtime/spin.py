@@ -6,8 +6,8 @@
 
 An executor rebuilds its wait set from Python objects before every wait, with two event handlers
 per publisher and subscription in it; that is more than half of what a small message costs. Here
-the set is kept, holds subscriptions, timers and guard conditions only, and a subscription that is
-ready is emptied at once. The price is rclpy's private wait set, used in this module alone.
+the set is kept, holds subscriptions, timers, services and guard conditions only, and a subscription
+that is ready is emptied at once. The price is rclpy's private wait set, used in this module alone.
 """
 
 from collections.abc import Callable, Iterator
@@ -17,6 +17,7 @@ from typing import Any
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
+from rclpy.service import Service
 from rclpy.signals import SignalHandlerGuardCondition
 from rclpy.subscription import Subscription
 
@@ -27,6 +28,7 @@ Spin = Callable[[Node, Callable[[], bool]], None]
 _WAIT_NS = 100_000_000
 _WAIT_SET_METHODS = (
     "add_guard_condition",
+    "add_service",
     "add_subscription",
     "add_timer",
     "clear_entities",
@@ -67,7 +69,7 @@ def spin_executor(node: Node, done: Callable[[], bool]) -> None:
 
 
 def spin_fast(node: Node, done: Callable[[], bool]) -> None:
-    """Do what ``spin`` does, for nodes without services and clients.
+    """Do what ``spin`` does, for nodes without clients.
 
     Deviates: quality-of-service events (a warning about an incompatible peer) are not looked at.
     """
@@ -93,9 +95,7 @@ def _shutdown_recognised(node: Node) -> Iterator[None]:
 
 def _can_spin_fast(node: Node) -> bool:
     wait_set = getattr(rclpy_implementation, "WaitSet", None)
-    return all(hasattr(wait_set, name) for name in _WAIT_SET_METHODS) and not (
-        [*node.services] or [*node.clients]
-    )
+    return all(hasattr(wait_set, name) for name in _WAIT_SET_METHODS) and not [*node.clients]
 
 
 class _Loop:
@@ -125,27 +125,30 @@ class _Loop:
             self._run_timers()
         for pointer in ready:
             _drain(self._subscription_at[pointer])
+        if self._services:
+            self._run_services()
         if self._guards:
             self._run_guards()
 
-    def _present(self) -> tuple[list[Subscription], list[Any], list[Any]]:
+    def _present(self) -> tuple[list[Subscription], list[Any], list[Any], list[Service]]:
         node = self._node
-        return [*node.subscriptions], [*node.timers], [*node.guards]
+        return [*node.subscriptions], [*node.timers], [*node.guards], [*node.services]
 
     def _build(self) -> None:
-        subscriptions, timers, guards = self._entities = self._present()
+        subscriptions, timers, guards, services = self._entities = self._present()
         self._subscriptions = [(s, s.handle, s.callback_group.can_execute) for s in subscriptions]
         self._subscription_at = {s.handle.pointer: s for s in subscriptions}
         self._timers = [(timer, timer.handle) for timer in timers]
         self._guards = {guard.handle.pointer: guard for guard in guards}
+        self._services = {service.handle.pointer: service for service in services}
         self._guard_handles = [guard.handle for guard in (self._signal, *guards)]
-        self._wait_set = self._wait_set_of(len(subscriptions), len(timers))
-        self._guard_set = self._wait_set_of(0, 0)
+        self._wait_set = self._wait_set_of(len(subscriptions), len(timers), len(services))
+        self._guard_set = self._wait_set_of(0, 0, 0)
 
-    def _wait_set_of(self, subscriptions: int, timers: int) -> Any:  # noqa: ANN401 (rclpy's)
+    def _wait_set_of(self, subscriptions: int, timers: int, services: int) -> Any:  # noqa: ANN401 (rclpy's)
         guards = len(self._guard_handles)
         return rclpy_implementation.WaitSet(
-            subscriptions, guards, timers, 0, 0, 0, self._context.handle
+            subscriptions, guards, timers, 0, services, 0, self._context.handle
         )
 
     def _wait(self) -> None:
@@ -156,6 +159,8 @@ class _Loop:
                 wait_set.add_subscription(handle)
         for _, handle in self._timers:
             wait_set.add_timer(handle)
+        for service in self._services.values():
+            wait_set.add_service(service.handle)
         self._wait_with_guards(wait_set, _WAIT_NS)
         if not self._context.ok():
             raise ExternalShutdownException
@@ -170,6 +175,10 @@ class _Loop:
             if handle.is_timer_ready():
                 handle.call_timer()
                 timer.callback()
+
+    def _run_services(self) -> None:
+        for pointer in self._wait_set.get_ready_entities("service"):
+            _serve(self._services[pointer])
 
     def _run_guards(self) -> None:
         triggered = {*self._wait_set.get_ready_entities("guard_condition")}
@@ -186,3 +195,11 @@ def _drain(subscription: Subscription) -> None:
     callback = subscription.callback
     while (taken := take(kind, raw)) is not None:
         callback(taken[0])
+
+
+def _serve(service: Service) -> None:
+    """Answer one request; more that wait make the service ready again."""
+    request, header = service.handle.service_take_request(service.srv_type.Request)
+    if header is not None:
+        response = service.callback(request, service.srv_type.Response())
+        service.send_response(response, header)
