@@ -119,6 +119,11 @@ class LoneAgent:
         """Give it another task now; return the plan."""
         return self.member.change_task(task, nanoseconds(self.now_s))
 
+    def put(self, pose: Pose) -> None:
+        """Displace the vehicle, and show it; its velocity stays."""
+        self.pose = pose
+        self._show_odometry()
+
     def act(self) -> None:
         """Let the brain do what is due."""
         self._take(self.brain.handle(TimePassed(), self.now_s))

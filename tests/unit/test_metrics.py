@@ -194,13 +194,14 @@ def test_faults_and_failures_come_up() -> None:
     ]
 
 
-def test_failed_attempts_are_coped_with() -> None:
-    """They aren't in the verdict, and each leaves the task a window more."""
+def test_what_agents_cope_with_is_no_failure() -> None:
+    """It isn't in the verdict, and each failed attempt leaves the task a window more."""
     records = hand_made_records()
     records.connectivity = [Connectivity(0, ((0, 1),), True)]
     done = [own for own in records.tasks if own.event.kind is not TaskEventKind.TASK_SATISFIED]
     failed = task(5.0, "west", TaskEventKind.FAULT, action="pick", detail="action=pick attempt=1")
-    records.tasks = [own for own in done if own.agent == "west"] + [failed]
+    pushed = task(6.0, "west", TaskEventKind.FAULT, detail="displaced_m=0.700")
+    records.tasks = [own for own in done if own.agent == "west"] + [failed, pushed]
     period_s = hand_made_scenario().communication.period_s
 
     def complaints(sim_s: float) -> list[str]:

@@ -37,9 +37,9 @@ def leg_between(pose: Pose, target_m: tuple[float, float]) -> Leg:
     return TRAVEL.leg_to(pose, target)
 
 
-def follower(leg: Leg, pacing: Pacing = Pacing.EVENT) -> Follower:
+def follower(leg: Leg, pacing: Pacing = Pacing.EVENT, start: Pose = START) -> Follower:
     """Return a follower of a leg."""
-    return Follower(leg, V_MPS, W_RADPS, TOLERANCE_M, pacing)
+    return Follower(leg, start, V_MPS, W_RADPS, TOLERANCE_M, pacing)
 
 
 def driven(
@@ -211,3 +211,17 @@ def test_a_waypoint_passed_within_the_tolerance_is_done() -> None:
     turn = follows.control(Pose(1.015, 0.0, 0.0), 1.015)
     assert turn is not None
     assert turn[0].angular_radps == W_RADPS
+
+
+def test_the_deviation_is_from_the_straight_being_driven() -> None:
+    """Beside it, behind its begin and beyond its end; other straights of the leg don't count."""
+    leg = Leg(((2.25, 2.25), (2.25, 4.25)), 0.0, 0.0, Pose(2.25, 4.25, math.pi / 2.0))
+    follows = follower(leg, start=Pose(0.25, 2.25, 0.0))
+    poses = [(0.25, 2.25), (1.25, 2.25), (1.25, 2.75), (-0.75, 2.25), (3.25, 2.25), (2.25, 4.25)]
+    first = [follows.deviation_m(Pose(*place, 0.0)) for place in poses]
+    assert first == pytest.approx([0.0, 0.0, 0.5, 1.0, 1.0, 2.0])
+    follows.control(Pose(2.25, 2.25, 0.0), 0.0)
+    second = [follows.deviation_m(Pose(*place, 0.0)) for place in poses]
+    assert second == pytest.approx([2.0, 1.0, 1.0, 3.0, 1.0, 0.0])
+    follows.control(Pose(2.25, 4.25, math.pi / 2.0), 0.0)
+    assert follows.deviation_m(Pose(2.25, 3.25, 0.0)) == pytest.approx(1.0)

@@ -273,7 +273,7 @@ def _disagreements(scenario: Scenario, records: RunRecords) -> Iterator[str]:
 
 def _faults(records: RunRecords) -> Iterator[str]:
     for record in records.tasks:
-        if record.event.kind is TaskEventKind.FAULT and not record.event.is_failed_attempt:
+        if record.event.kind is TaskEventKind.FAULT and not record.event.is_coped_with:
             time_s = seconds(record.stamp_ns)
             yield f"{record.agent}: fault at {time_s:.3f} s: {record.event.detail}"
 

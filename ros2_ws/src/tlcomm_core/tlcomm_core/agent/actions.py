@@ -61,8 +61,14 @@ class TaskEvent:
     detail: str = ""
 
     @property
+    def is_coped_with(self) -> bool:
+        """Whether it is a fault after which the agent goes on: a failed action, a displacement."""
+        is_fault = self.kind is TaskEventKind.FAULT
+        return is_fault and (bool(self.action) or self.detail.startswith("displaced_m="))
+
+    @property
     def is_failed_attempt(self) -> bool:
-        """Whether an action has failed, to be begun anew: a fault that the agent copes with."""
+        """Whether an action has failed, to be begun anew."""
         return self.kind is TaskEventKind.FAULT and bool(self.action)
 
 

@@ -6,7 +6,8 @@
 What it is doing is one of four activities, in this cycle (Section IV-C of the paper):
 
 Meeting    at its place: negotiate the next meeting; leave at t_c + D_c.
-Driving    to the next step of its plan, or to the next place of meeting.
+Driving    to the next step of its plan, or to the next place of meeting; anew, from where it is,
+           when something has put it off its way.
 Acting     at a step's region, until the step is done, or begun anew since its action failed.
            Steps go on, through prefix and suffix, up to h; then to z, and Meeting again.
            (``itinerary``: up to fewer, if failures have taken the time.)
@@ -28,7 +29,7 @@ from tlcomm_core.agent.events import (
 )
 from tlcomm_core.agent.faults import ActionFaults
 from tlcomm_core.agent.itinerary import Itinerary
-from tlcomm_core.errors import LocalMisuseError
+from tlcomm_core.agent.reckoning import DeadReckoning
 from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose, wrap_angle
@@ -37,7 +38,6 @@ from tlcomm_core.protocol.actions import CountIgnored
 from tlcomm_core.protocol.negotiation import Negotiation, Phase, Rounds
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.workspace.travel import Leg, TravelTimes
-from tlcomm_core.world.unicycle import integrate
 
 __all__ = ["Brain", "Settings"]
 
@@ -60,6 +60,7 @@ class Settings:
         team: the team.
         rounds: poses round problems.
         position_tolerance_m: how far its controller may be off a waypoint.
+        most_deviation_m: further off its way than this it has been displaced.
         pacing: how often its controller is asked.
         faults: which attempts at actions fail.
         retries: how often a failed action is begun anew before the next meeting.
@@ -71,6 +72,7 @@ class Settings:
     team: Team
     rounds: Rounds
     position_tolerance_m: float
+    most_deviation_m: float
     pacing: Pacing
     faults: ActionFaults
     retries: int
@@ -84,6 +86,7 @@ class _Driving:
     follower: Follower
     meeting: Strategy | None
     control_s: float
+    displaced_m: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +113,7 @@ class Brain:
     def __init__(self, settings: Settings) -> None:
         """Be ready for the first odometry."""
         self._settings = settings
-        self._odometry: OdometryReceived | None = None
+        self._reckoning = DeadReckoning()
         self._activity: _Driving | _Acting | _Meeting | None = None
         self._round = 0
         self._itinerary = Itinerary(settings.plan, settings.travel, settings.retries)
@@ -163,11 +166,7 @@ class Brain:
         """
         match event:
             case OdometryReceived():
-                self._odometry = event
-                if self._activity is None:
-                    self._pose = event.pose
-                    return tuple(self._reach_meeting(now_s))
-                return ()
+                return tuple(self._locate(event, now_s))
             case MessageHeard(message):
                 if isinstance(self._activity, _Meeting):
                     return self._activity.negotiation.hear(message)
@@ -177,6 +176,15 @@ class Brain:
                 return ()
             case TimePassed():
                 return tuple(self._proceed(now_s))
+
+    def _locate(self, odometry: OdometryReceived, now_s: float) -> list[Action]:
+        self._reckoning.take(odometry)
+        if isinstance(self._activity, _Driving):
+            self._watch(self._activity, odometry.pose)
+        if self._activity is not None:
+            return []
+        self._pose = odometry.pose
+        return self._reach_meeting(now_s)
 
     def _proceed(self, now_s: float) -> list[Action]:
         """Do whatever is due; one activity may end and the next begin at one instant."""
@@ -275,6 +283,7 @@ class Brain:
         leg = self._itinerary.leg(self._pose, meeting)
         follower = Follower(
             leg,
+            self._pose,
             settings.travel.motion.linear_mps,
             settings.travel.motion.angular_radps,
             settings.position_tolerance_m,
@@ -284,9 +293,11 @@ class Brain:
         return []
 
     def _drive(self, driving: _Driving, now_s: float) -> list[Action]:
+        pose = self._reckoning.pose_at(now_s)
+        if driving.displaced_m is not None:
+            return self._recover(driving.displaced_m, pose, now_s)
         if not self._is_due(driving.control_s, now_s):
             return []
-        pose = self._pose_at(now_s)
         control = driving.follower.control(pose, now_s)
         if control is not None:
             drive, driving.control_s = control
@@ -298,6 +309,23 @@ class Brain:
         predicted_s = driving.meeting.arrival_s
         detail = f"predicted_s={predicted_s:.9f} error_s={now_s - predicted_s:.9f}"
         return [*actions, *self._reach_meeting(now_s, detail)]
+
+    def _watch(self, driving: _Driving, pose: Pose) -> None:
+        """See whether something has put the agent off its way."""
+        deviation_m = driving.follower.deviation_m(pose)
+        is_displaced = deviation_m > self._settings.most_deviation_m
+        if is_displaced and self._itinerary.can_go_on(pose):
+            driving.displaced_m = deviation_m
+
+    def _recover(self, displaced_m: float, pose: Pose, now_s: float) -> list[Action]:
+        """Go on from where something has put the agent, as far as there is time to."""
+        self._pose = pose
+        self._itinerary.delay()
+        detail = f"displaced_m={displaced_m:.3f}"
+        fault = self._report(
+            TaskEventKind.FAULT, plan_index=self._itinerary.done + 1, detail=detail
+        )
+        return [fault, *self._set_out(now_s)]
 
     def _begin_step(self, now_s: float) -> list[Action]:
         step = self._itinerary.step
@@ -324,18 +352,6 @@ class Brain:
         return self._report(TaskEventKind.FAULT, step, self._itinerary.done + 1, detail=detail)
 
     # Where and when it is.
-
-    def _pose_at(self, now_s: float) -> Pose:
-        """Return the pose by dead reckoning from the last odometry."""
-        odometry = self._odometry
-        if odometry is None:
-            raise LocalMisuseError("an agent drove before its first odometry")
-        return integrate(
-            odometry.pose,
-            odometry.linear_mps,
-            odometry.angular_radps,
-            max(0.0, now_s - odometry.stamp_s),
-        )
 
     def _taken_for(self, expected: Pose, actual: Pose) -> Pose:
         """Return the expected pose if the actual one is as near as can be expected."""

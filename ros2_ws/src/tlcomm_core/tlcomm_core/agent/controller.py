@@ -54,19 +54,33 @@ class Follower:
     def __init__(
         self,
         leg: Leg,
+        start: Pose,
         linear_mps: float,
         angular_radps: float,
         position_tolerance_m: float,
         pacing: Pacing,
     ) -> None:
-        """Follow ``leg`` at the given speeds to within the tolerance."""
+        """Follow ``leg`` from ``start`` at the given speeds to within the tolerance."""
         self._waypoints = list(leg.waypoints_m)
+        self._passed_m = (start.x_m, start.y_m)
         self._linear_mps = linear_mps
         self._angular_radps = angular_radps
         self._tolerance_m = position_tolerance_m
         self._precision_m = _EXACT_M if pacing is Pacing.EVENT else _SHARE * position_tolerance_m
         self._pacing = pacing
         self._is_approaching = False
+
+    def deviation_m(self, pose: Pose) -> float:
+        """Return how far a pose is from the straight that is being driven."""
+        (x_m, y_m), *_ = self._waypoints or [self._passed_m]
+        from_x_m, from_y_m = self._passed_m
+        length_m = math.dist(self._passed_m, (x_m, y_m))
+        if length_m == 0.0:
+            return pose.distance_m(x_m, y_m)
+        along_x, along_y = (x_m - from_x_m) / length_m, (y_m - from_y_m) / length_m
+        way_m = (pose.x_m - from_x_m) * along_x + (pose.y_m - from_y_m) * along_y
+        way_m = min(max(way_m, 0.0), length_m)
+        return pose.distance_m(from_x_m + way_m * along_x, from_y_m + way_m * along_y)
 
     def control(self, pose: Pose, now_s: float) -> tuple[Drive, float] | None:
         """Return the velocity from now on, and when to ask again; ``None`` at the leg's end.
@@ -92,7 +106,7 @@ class Follower:
             error_rad = wrap_angle(math.atan2(y_m - pose.y_m, x_m - pose.x_m) - pose.yaw_rad)
             is_behind = abs(error_rad) >= math.pi / 2.0
             if distance_m <= self._precision_m or (is_behind and distance_m <= self._tolerance_m):
-                self._waypoints.pop(0)
+                self._passed_m = self._waypoints.pop(0)
                 self._is_approaching = False
                 continue
             linear_mps = self._linear_mps

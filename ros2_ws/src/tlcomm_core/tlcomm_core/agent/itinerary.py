@@ -103,8 +103,18 @@ class Itinerary:
     def fail_step(self) -> int:
         """Note that the step's action has failed; return how often it has since the meeting."""
         self._failures += 1
-        self._is_delayed = True
+        self.delay()
         return self._failures
+
+    def delay(self) -> None:
+        """Note that time was lost: from now on until the meeting, time decides on each step."""
+        self._is_delayed = True
+
+    def can_go_on(self, pose: Pose) -> bool:
+        """Return whether a way leads from a pose to what is planned."""
+        grid = self._travel.grid
+        here = grid.location_at(pose.x_m, pose.y_m)
+        return here is not None and grid.components[here] == grid.components[self.step.location]
 
     def next_meeting(self, pose: Pose, now_s: float) -> Strategy | None:
         """Return the meeting if it is time to go there; ``None`` if a step comes first.

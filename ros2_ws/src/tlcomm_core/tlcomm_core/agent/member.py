@@ -46,6 +46,11 @@ Planner = Callable[[str, Pose], LocalPlan]
 # and a late timer.
 _ALLOWANCE_S: Final = {Pacing.EVENT: 0.0, Pacing.PERIODIC: 1.2 * CONTROL_PERIOD_S}
 
+# Further off its leg than a cell, an agent is where the leg never leads. (What a late controller
+# overshoots is less, and no displacement.)
+_OFF_CELLS: Final = 1.0
+_OFF_TOLERANCES: Final = 5.0
+
 
 class Member:
     """One agent: what its radio lets through and its odometry reach its brain, at given times."""
@@ -205,6 +210,7 @@ def create(name: str, site: Site, pacing: Pacing, atlas: Atlas, seed: int = 0) -
     """
     scenario = site.scenario
     allowance_s = _ALLOWANCE_S[pacing]
+    tolerance_m = scenario.drive_of(name).position_tolerance_m
     travel = atlas.travel(site.motion_of(name, allowance_s))
     team = team_of(site)
     # Members' plans lead through regions: with this done, the first round takes no longer than
@@ -217,7 +223,8 @@ def create(name: str, site: Site, pacing: Pacing, atlas: Atlas, seed: int = 0) -
             travel=travel,
             team=team,
             rounds=MeetingRounds(atlas, team, allowance_s),
-            position_tolerance_m=scenario.drive_of(name).position_tolerance_m,
+            position_tolerance_m=tolerance_m,
+            most_deviation_m=max(_OFF_CELLS * site.grid.cell_m, _OFF_TOLERANCES * tolerance_m),
             pacing=pacing,
             faults=ActionFaults(scenario.faults.action_failure, fault_rng(seed, name)),
             retries=scenario.faults.retries,
