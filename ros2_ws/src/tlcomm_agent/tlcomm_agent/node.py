@@ -59,6 +59,7 @@ class _Hearing(ReentrantCallbackGroup):
         self._attended = attended
 
     def can_execute(self, entity: object) -> bool:  # noqa: ARG002 (the group stands for it)
+        """Tell whether the other's messages are to be taken now."""
         return self._other in self._attended()
 
 
@@ -230,7 +231,7 @@ class AgentNode(Node):
         except wire.WireError as error:
             self._ignore(f"{other}: {error}")
             return 0
-        except Exception as error:  # noqa: BLE001 (bytes from outside break rclpy in its own ways)
+        except RuntimeError as error:  # rclpy's RMWError, which has no public name
             self._ignore(f"{other}: not a {kind.__name__}: {error}")
             return 0
         if message.sender != other:

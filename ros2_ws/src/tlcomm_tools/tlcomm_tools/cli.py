@@ -38,6 +38,7 @@ class _Parser(argparse.ArgumentParser):
     """A parser whose errors are ``InputError``s."""
 
     def error(self, message: str) -> NoReturn:
+        """Raise the complaint instead of ending the process."""
         raise InputError(f"{message} (see '{self.prog} --help')")
 
 

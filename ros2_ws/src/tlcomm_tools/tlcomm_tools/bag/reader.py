@@ -140,6 +140,8 @@ def _gather(path: Path, containers: list[Container]) -> RecordedRun:
         except InputError:
             raise
         except Exception as error:
+            # Decoders are made from the definitions that the file brings along, so a foreign or
+            # damaged one can fail in any way.
             msg = f"{str(path)!r} holds a message that can't be decoded: {error}"
             raise InputError(msg) from error
     records = collected.records
