@@ -117,6 +117,7 @@ def _record(settings: RecorderSettings, writer: BagWriter, spin: Spin, notifier:
     try:
         notifier.tell(Started())
         spin(node, lambda: node.is_done or bool(signals))
+        node.await_silence()
         until_s = time.monotonic() + _DRAIN_S
         spin(node, lambda: node.is_done or node.is_quiet or time.monotonic() > until_s)
         node.say_what_is_missing()
@@ -164,9 +165,13 @@ class Recorder(Node):
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(_PERIOD_S, self._on_timer, clock=steady)
 
+    def await_silence(self) -> None:
+        """Begin to look out for silence."""
+        self._silent_periods = 0
+
     @property
     def is_quiet(self) -> bool:
-        """Whether nothing has arrived for a while."""
+        """Whether nothing has arrived for a while, since silence is looked out for."""
         return self._silent_periods >= _SILENT_PERIODS
 
     def say_what_is_missing(self) -> None:
