@@ -131,13 +131,7 @@ class AgentNode(Node):
         self._attended: Container[str] = self.config.others if self._is_lockstep else ()
         self._create_publishers()
         self._create_subscriptions()
-        self._steady: Final = Clock(clock_type=ClockType.STEADY_TIME)
-        self._ready_timer: Final = self.create_timer(
-            _READY_PERIOD_S, self._say_ready, clock=self._steady
-        )
-        self._news: Final = self.create_guard_condition(self._step_freely)
-        if not self._is_lockstep:
-            self.create_timer(CONTROL_PERIOD_S, self._step_freely)
+        self._create_occasions()
 
     def _declared(self, name: str) -> object:
         defaults = {"scenario": "", "pace": "lockstep", "recorder": False}
@@ -176,6 +170,13 @@ class AgentNode(Node):
             for topic in wire.TEAM_TYPES
         ]
         self._own_subscriptions = (*own, *team)
+
+    def _create_occasions(self) -> None:
+        self._steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._ready_timer = self.create_timer(_READY_PERIOD_S, self._say_ready, clock=self._steady)
+        self._news = self.create_guard_condition(self._step_freely)
+        if not self._is_lockstep:
+            self.create_timer(CONTROL_PERIOD_S, self._step_freely)
 
     def _subscribe_team(self, other: str, topic: str) -> Any:  # noqa: ANN401 (rclpy's are opaque)
         kind = wire.TEAM_TYPES[topic]

@@ -31,7 +31,7 @@ VERBS: Final = {
     "bench": "measure planning, solving and simulating",
 }
 _HELP: Final = ("-h", "--help")
-_TOLD_BY_FILE: Final = {errno.ENOSPC, errno.EDQUOT, errno.EIO}
+_BREAKING: Final = {errno.ENOSPC, errno.EDQUOT, errno.EIO}
 
 
 class _Parser(argparse.ArgumentParser):
@@ -65,7 +65,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return Status.FINE
     except OSError as error:
-        status = Status.BROKEN if error.errno in _TOLD_BY_FILE else Status.BAD_INPUT
+        status = Status.BROKEN if error.errno in _BREAKING else Status.BAD_INPUT
         place = "while writing: " if error.filename is None else f"{str(error.filename)!r}: "
         return _report(f"{place}{error.strerror}", status)
 

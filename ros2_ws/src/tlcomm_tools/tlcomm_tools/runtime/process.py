@@ -9,7 +9,6 @@ import signal
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Final
 
 from rclpy.parameter import Parameter
 
@@ -25,11 +24,9 @@ from tlcomm_tools.runtime.notify import (
     watch_parent,
 )
 from tlcomm_tools.runtime.spin import spin
+from tlcomm_tools.status import Status
 
 __all__ = ["main"]
-
-_STATUS_INPUT: Final = 2
-_STATUS_BROKEN: Final = 3
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -44,12 +41,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         return work(arguments, notifier)
     except (InputError, PlanningError) as error:
-        return _fail(notifier, error, _STATUS_INPUT)
+        return _fail(notifier, error, Status.BAD_INPUT)
     except TlcommError as error:
-        return _fail(notifier, error, _STATUS_BROKEN)
+        return _fail(notifier, error, Status.BROKEN)
 
 
-def _fail(notifier: Notifier, error: TlcommError, status: int) -> int:
+def _fail(notifier: Notifier, error: TlcommError, status: Status) -> int:
     print(error, file=sys.stderr)
     # The supervisor interrupts everybody as soon as it hears of this; it is leaving already.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
