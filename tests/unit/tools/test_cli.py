@@ -133,6 +133,24 @@ def test_a_closed_pipe_is_silent(tmp_path: Path) -> None:
     assert (process.returncode, errors) == (0, b"")
 
 
+def test_a_full_disk_behind_standard_output_is_told(tmp_path: Path) -> None:
+    """What can't be printed breaks the run, in one line that says so."""
+    command = [sys.executable, "-m", "tlcomm_tools", "validate", CORRIDOR]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    with Path("/dev/full").open("wb") as full:
+        done = subprocess.run(
+            command,
+            stdout=full,
+            stderr=subprocess.PIPE,
+            env=environment,
+            cwd=tmp_path,
+            text=True,
+            check=False,
+        )
+    assert done.returncode == 3
+    assert done.stderr == "tlcomm: error: standard output: No space left on device\n"
+
+
 def test_help_imports_little() -> None:
     """The overview needs neither numpy nor any verb: the command starts at once."""
     code = (
