@@ -12,10 +12,12 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 
+from tlcomm_agent import node as agent_node
 from tlcomm_msgs import msg
 from tlcomm_sim import node as sim_node
 from tlcomm_tools.bag.container import read_container
 from tlcomm_tools.bag.definitions import load_typestore, read_definition
+from tlcomm_tools.bag.metadata import qos_text
 from tlcomm_tools.bag.topics import recorded_topics
 from tlcomm_tools.bag.writer import BagWriter
 from tlcomm_tools.runtime import recorder
@@ -128,6 +130,12 @@ def test_it_names_what_a_tick_waits_for(
     recording.world.tick()
     recording.until(lambda: bool(recording.notes.told))
     assert recording.notes.told[0] == Failed("hasn't arrived: 1 of clock", 3)
+
+
+def test_a_bag_says_how_its_topics_are_offered() -> None:
+    """The depths in a bag's description are those of the agents' publishers."""
+    assert f"depth: {agent_node._DEPTH}\n" in qos_text(latched=False)
+    assert f"depth: {agent_node._HELD_STRATEGIES}\n" in qos_text(latched=True)
 
 
 def test_its_patience_ends_before_the_sims() -> None:

@@ -4,6 +4,7 @@
 """
 
 import argparse
+import contextlib
 import os
 import signal
 import sys
@@ -34,7 +35,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     watch_parent()
     # A process that wakes up waits for its turn instead of interrupting another's: what arrives
     # meanwhile is then handled together, and agents that share a computer agree sooner.
-    os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
+    # It is a favour to the others: where the kernel doesn't grant it, all goes on without.
+    with contextlib.suppress(OSError):
+        os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
     notifier = Notifier.from_environment()
     arguments = _parser().parse_args(argv)
     work: Callable[[argparse.Namespace, Notifier], int] = arguments.work
