@@ -75,6 +75,16 @@ class LocalPlan:
         return sum(len(step.wanted) for step in self.suffix)
 
     @property
+    def prefix_price_s(self) -> float:
+        """Price of what is violated from the start through the prefix."""
+        return self.prefix_violation * (self.weight_s or 0.0)
+
+    @property
+    def suffix_price_s(self) -> float:
+        """Price of what is violated in one pass through the suffix."""
+        return self.suffix_violation * (self.weight_s or 0.0)
+
+    @property
     def word(self) -> tuple[tuple[frozenset[str], ...], tuple[frozenset[str], ...]]:
         """The word that the plan reads: letters once, and letters for ever."""
         stem = (self.initial_label, *(step.label for step in self.prefix))

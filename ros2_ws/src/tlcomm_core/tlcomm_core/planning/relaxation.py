@@ -139,14 +139,17 @@ class Relaxed:
     is the nearest such letter, so that a run's violations are the least number of atoms, over all
     letters, that would have to be different for the soft task to be satisfied.
 
-    A state is (task's state h, soft state q, ready r) with the number (h·|Q| + q)·2 + r. Ready
-    means that the soft automaton has accepted since the last accepting move; the next accepting
-    transition of the task's then makes an accepting move. Every cycle on which both automata
-    accept, in whatever order, has one accepting move per pass at least.
+    A state is (task's state h, soft state q, ready r) with the number (h·|Q| + q)·2 + r. An
+    accepting move is one of the task's accepting transitions, taken when ready. Then one is ready
+    again as soon as the soft automaton has accepted, on that very move or later. When ready, one
+    may also go on without an accepting move, and one is ready in the beginning. So through each of
+    the task's accepting transitions on a cycle on which both automata accept, in whatever order,
+    there is a cycle of the product with the same steps, and a prefix that the soft automaton's
+    acceptance doesn't delay.
 
     Source: Guo and Dimarogonas, "Multi-agent plan reconfiguration under local LTL specifications",
-        2015, relaxed product automaton (h, q, r: q₁, q₂, c; distance of a letter to a guard).
-    Deviates: acceptance is on transitions. The letter is one that is read on entering a state.
+        2015, relaxed product automaton (h, q, r: q₁, q₂, c; price: distance from letter to guard).
+    Deviates: acceptance is on transitions; c may wait, which makes the least lasso exact.
     """
 
     def __init__(self, automaton: Automaton, soft: BuchiAutomaton) -> None:
@@ -156,7 +159,7 @@ class Relaxed:
         self._soft_atoms: Final = frozenset(soft.atoms)
         self._options: Final[dict[tuple[int, Label], tuple[_Option, ...]]] = {}
         self.atoms: Final = frozenset(automaton.atoms) | self._soft_atoms
-        self.initial: Final = self._number(automaton.initial, soft.initial, is_ready=False)
+        self.initial: Final = self._number(automaton.initial, soft.initial, is_ready=True)
         self.state_count: Final = automaton.state_count * soft.state_count * 2
 
     def moves(self, state: int, label: Label) -> Iterator[Move]:
@@ -165,13 +168,15 @@ class Relaxed:
         hard_state, soft_state = divmod(pair, self._soft.state_count)
         cheapest: dict[tuple[int, bool], Move] = {}
         for hard_target, satisfies in self._hard.successors(hard_state, label):
+            # Options come the cheapest first.
             for option in self._of(soft_state, label):
-                is_ready = was_ready > 0 or option.accepting
-                accepting = is_ready and satisfies
-                target = self._number(hard_target, option.target, is_ready=is_ready > accepting)
-                # Options come the cheapest first.
-                move = Move(target, accepting, satisfies, option.wanted)
-                cheapest.setdefault((target, accepting), move)
+                turns = _turns(
+                    was_ready=was_ready > 0, satisfies=satisfies, complies=option.accepting
+                )
+                for accepting, is_ready in turns:
+                    target = self._number(hard_target, option.target, is_ready=is_ready)
+                    move = Move(target, accepting, satisfies, option.wanted)
+                    cheapest.setdefault((target, accepting), move)
         yield from cheapest.values()
 
     def _number(self, hard_state: int, soft_state: int, *, is_ready: bool) -> int:
@@ -191,6 +196,13 @@ class _Option(NamedTuple):
     target: int
     accepting: bool
     wanted: tuple[str, ...]
+
+
+def _turns(*, was_ready: bool, satisfies: bool, complies: bool) -> tuple[tuple[bool, bool], ...]:
+    """Return (accepting, ready afterwards) for what the task and the soft task accept on a move."""
+    if not (was_ready and satisfies):
+        return ((False, was_ready or complies),)
+    return ((True, True),) if complies else ((True, False), (False, True))
 
 
 def _cheapest(automaton: BuchiAutomaton, state: int, label: Label) -> tuple[_Option, ...]:
