@@ -139,13 +139,12 @@ class Relaxed:
     is the nearest such letter, so that a run's violations are the least number of atoms, over all
     letters, that would have to be different for the soft task to be satisfied.
 
-    A state is (task's state h, soft state q, ready r) with the number (h·|Q| + q)·2 + r. An
-    accepting move is one of the task's accepting transitions, taken when ready. Then one is ready
-    again as soon as the soft automaton has accepted, on that very move or later. When ready, one
-    may also go on without an accepting move, and one is ready in the beginning. So through each of
-    the task's accepting transitions on a cycle on which both automata accept, in whatever order,
-    there is a cycle of the product with the same steps, and a prefix that the soft automaton's
-    acceptance doesn't delay.
+    A state is (task's state h, soft state q, waiting r) with the number (h·|Q| + q)·2 + r. An
+    accepting move is one of the task's accepting transitions, taken when not waiting. After it one
+    waits until the soft automaton accepts, be it on that very move. When not waiting, one may also
+    go on without an accepting move. So through each of the task's accepting transitions on a cycle
+    on which both automata accept, in whatever order, there is a cycle of the product with the same
+    steps, and a prefix that the soft automaton's acceptance doesn't delay.
 
     Source: Guo and Dimarogonas, "Multi-agent plan reconfiguration under local LTL specifications",
         2015, relaxed product automaton (h, q, r: q₁, q₂, c; price: distance from letter to guard).
@@ -159,28 +158,28 @@ class Relaxed:
         self._soft_atoms: Final = frozenset(soft.atoms)
         self._options: Final[dict[tuple[int, Label], tuple[_Option, ...]]] = {}
         self.atoms: Final = frozenset(automaton.atoms) | self._soft_atoms
-        self.initial: Final = self._number(automaton.initial, soft.initial, is_ready=True)
+        self.initial: Final = self._number(automaton.initial, soft.initial, is_waiting=False)
         self.state_count: Final = automaton.state_count * soft.state_count * 2
 
     def moves(self, state: int, label: Label) -> Iterator[Move]:
         """Yield the task's transitions that a letter allows, each with every one of the soft's."""
-        pair, was_ready = divmod(state, 2)
+        pair, was_waiting = divmod(state, 2)
         hard_state, soft_state = divmod(pair, self._soft.state_count)
         cheapest: dict[tuple[int, bool], Move] = {}
         for hard_target, satisfies in self._hard.successors(hard_state, label):
             # Options come the cheapest first.
             for option in self._of(soft_state, label):
                 turns = _turns(
-                    was_ready=was_ready > 0, satisfies=satisfies, complies=option.accepting
+                    was_waiting=was_waiting > 0, satisfies=satisfies, complies=option.accepting
                 )
-                for accepting, is_ready in turns:
-                    target = self._number(hard_target, option.target, is_ready=is_ready)
+                for accepting, is_waiting in turns:
+                    target = self._number(hard_target, option.target, is_waiting=is_waiting)
                     move = Move(target, accepting, satisfies, option.wanted)
                     cheapest.setdefault((target, accepting), move)
         yield from cheapest.values()
 
-    def _number(self, hard_state: int, soft_state: int, *, is_ready: bool) -> int:
-        return (hard_state * self._soft.state_count + soft_state) * 2 + is_ready
+    def _number(self, hard_state: int, soft_state: int, *, is_waiting: bool) -> int:
+        return (hard_state * self._soft.state_count + soft_state) * 2 + is_waiting
 
     def _of(self, state: int, label: Label) -> "tuple[_Option, ...]":
         key = (state, label & self._soft_atoms)
@@ -198,11 +197,11 @@ class _Option(NamedTuple):
     wanted: tuple[str, ...]
 
 
-def _turns(*, was_ready: bool, satisfies: bool, complies: bool) -> tuple[tuple[bool, bool], ...]:
-    """Return (accepting, ready afterwards) for what the task and the soft task accept on a move."""
-    if not (was_ready and satisfies):
-        return ((False, was_ready or complies),)
-    return ((True, True),) if complies else ((True, False), (False, True))
+def _turns(*, was_waiting: bool, satisfies: bool, complies: bool) -> tuple[tuple[bool, bool], ...]:
+    """Return (accepting, waiting afterwards) for what task and soft task accept on a move."""
+    if was_waiting or not satisfies:
+        return ((False, was_waiting and not complies),)
+    return ((True, False),) if complies else ((True, True), (False, False))
 
 
 def _cheapest(automaton: BuchiAutomaton, state: int, label: Label) -> tuple[_Option, ...]:

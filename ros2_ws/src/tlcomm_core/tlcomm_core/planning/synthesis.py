@@ -11,10 +11,10 @@ import numpy as np
 from tlcomm_core.errors import PlanningError, UnreachableTaskError, UnsatisfiableTaskError
 from tlcomm_core.ltl import BuchiAutomaton, Cube, Formula, Guard, translate
 from tlcomm_core.planning import product as products
-from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective, optimal_lasso
+from tlcomm_core.planning.lasso import SUFFIX_FIRST, Lasso, Objective, optimal_lasso
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
 from tlcomm_core.planning.product import Product
-from tlcomm_core.planning.relaxation import SoftTask
+from tlcomm_core.planning.relaxation import Move, SoftTask
 from tlcomm_core.planning.transition_system import TransitionSystem
 
 __all__ = ["plan_task"]
@@ -51,10 +51,12 @@ def plan_task(
     lasso = optimal_lasso(product, objective)
     if lasso is None:
         raise _failure(formula, automaton, system)
+    entry = product.source[[*lasso.prefix, *lasso.suffix][0]]
+    lasso = _shortened(lasso, product)
     prefix = _steps(lasso.prefix, product, system, automaton)
     suffix = _steps(lasso.suffix, product, system, automaton)
     first = next(place for place, step in enumerate(suffix) if step.satisfies)
-    start = np.searchsorted(product.initial, product.source[[*lasso.prefix, *lasso.suffix][0]])
+    start = np.searchsorted(product.initial, entry)
     return LocalPlan(
         prefix=prefix,
         suffix=suffix,
@@ -67,6 +69,19 @@ def plan_task(
         initial_wanted=product.reading.moves[product.reading.initial[start]].wanted,
         weight_s=None if soft is None else soft.weight_s,
     )
+
+
+def _shortened(lasso: Lasso, product: Product) -> Lasso:
+    """Return the same run with the shortest prefix, however the automata count their turns."""
+
+    def seen(edge: int) -> tuple[int, Move]:
+        move = product.reading.moves[product.reading.edge[edge]]
+        return int(product.step[edge]), move._replace(target=0, accepting=False)
+
+    prefix, suffix = lasso.prefix, lasso.suffix
+    while prefix and seen(prefix[-1]) == seen(suffix[-1]):
+        prefix, suffix = prefix[:-1], (suffix[-1], *suffix[:-1])
+    return Lasso(prefix, suffix)
 
 
 def _steps(
