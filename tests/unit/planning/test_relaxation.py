@@ -86,10 +86,10 @@ def test_without_a_soft_task_nothing_is_priced() -> None:
 
 
 def test_the_prefix_is_no_longer_than_the_run_needs() -> None:
-    """The run is told from where its steps repeat, wherever in the suffix the soft task is paid."""
-    for weight_s in (0.5, 1e5):
-        found = plan("G F (m & unload)", weight_s, "G F (p & F r)")
-        assert not found.prefix or found.prefix[-1] != found.suffix[-1]
+    """The run is told from where its steps repeat, wherever the soft automaton's turn is over."""
+    found = plan("G F collect", 0.5, "G F (p & collect & F (r & unload))")
+    assert len(found.prefix) == 1
+    assert found.prefix[-1] != found.suffix[-1]
 
 
 def test_a_strict_reader_has_the_automatons_transitions() -> None:
