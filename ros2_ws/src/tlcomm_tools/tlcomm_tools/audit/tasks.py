@@ -78,7 +78,7 @@ def audit_task(
         if record.event.kind is TaskEventKind.TASK_SATISFIED
     ]
     violations = [*_misplaced(scenario, agent, events, track), *_hasty(scenario, agent, events)]
-    part = recurring_part(read_formula(scenario.agents[agent].task))
+    part = recurring_part(read_formula(scenario.agents[agent].whole_task))
     is_changed = any(own.event.kind is TaskEventKind.TASK_CHANGED for own in events)
     if part is None or is_changed:
         return TaskFinding(agent, len(claimed_s), None, None, tuple(violations))
