@@ -95,6 +95,19 @@ def test_after_a_failure_the_way_to_the_meeting_is_in_time() -> None:
     assert now_s + itinerary.leg(pose, meeting).duration_s <= 100.0 + 1e-6
 
 
+def test_the_pose_at_the_meeting_is_foreseen() -> None:
+    """Leg by leg through the steps up to h, then to the place; nothing is changed by asking."""
+    itinerary, pose = at_the_action(STEP + 1, 100.0)
+    expected = itinerary.meeting_pose(pose)
+    assert expected.distance_m(PLACE.x_m, PLACE.y_m) == 0.0
+    for _ in range(2):
+        pose = itinerary.leg(pose, None).arrival
+        itinerary.finish_step()
+    meeting = itinerary.next_meeting(pose, 0.0)
+    assert meeting is not None
+    assert itinerary.leg(pose, meeting).arrival == expected
+
+
 def test_nothing_is_done_before_an_agreement() -> None:
     """Setting out without one is a bug."""
     with pytest.raises(LocalMisuseError, match="before any meeting"):
