@@ -4,6 +4,7 @@
 ``create``      a member from a scenario
 ``team_of``     what all its members know
 ``local_plan``  an agent's plan for its task
+``system_of``   what it can do
 ``check_tasks``  whether all agents have one
 """
 
@@ -22,7 +23,7 @@ from tlcomm_core.ltl import parse
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.planning.synthesis import plan_task
-from tlcomm_core.planning.transition_system import build
+from tlcomm_core.planning.transition_system import TransitionSystem, build
 from tlcomm_core.protocol.actions import CountIgnored
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.protocol.negotiation import Phase
@@ -32,7 +33,7 @@ from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import TravelTimes
 
-__all__ = ["Member", "check_tasks", "create", "local_plan", "team_of"]
+__all__ = ["Member", "check_tasks", "create", "local_plan", "system_of", "team_of"]
 
 # What a periodic controller may lose at the end of a turn or a straight: the rest of its period
 # and a late timer.
@@ -114,17 +115,22 @@ def local_plan(
     Raises:
         PlanningError: there is none; the message says whose.
     """
-    system = build(
+    system = system_of(name, site, travel)
+    try:
+        return plan_task(parse(site.scenario.agents[name].task), system, objective)
+    except PlanningError as error:
+        raise type(error)(f"agents.{name}.task: {error}") from error
+
+
+def system_of(name: str, site: Site, travel: TravelTimes) -> TransitionSystem:
+    """Return an agent's transition system."""
+    return build(
         travel,
         site.start_of(name),
         site.region_location,
         site.regions_at,
         site.action_durations(name),
     )
-    try:
-        return plan_task(parse(site.scenario.agents[name].task), system, objective)
-    except PlanningError as error:
-        raise type(error)(f"agents.{name}.task: {error}") from error
 
 
 def check_tasks(site: Site) -> None:

@@ -1,6 +1,8 @@
 """From a task to the optimal local plan, or to the reason why there is none.
 
-- ``plan_task``   the plan for a formula
+- ``plan_task``     the plan for a formula
+- ``told``          the plan that a lasso is
+- ``region_named``  what a place is called
 """
 
 from collections.abc import Callable, Sequence
@@ -9,12 +11,12 @@ from dataclasses import replace
 from tlcomm_core.errors import PlanningError, UnreachableTaskError, UnsatisfiableTaskError
 from tlcomm_core.ltl import BuchiAutomaton, Cube, Formula, Guard, translate
 from tlcomm_core.planning import product as products
-from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective, optimal_lasso
+from tlcomm_core.planning.lasso import SUFFIX_FIRST, Lasso, Objective, optimal_lasso
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
 from tlcomm_core.planning.product import Product
 from tlcomm_core.planning.transition_system import TransitionSystem
 
-__all__ = ["plan_task"]
+__all__ = ["plan_task", "region_named", "told"]
 
 
 def plan_task(
@@ -43,6 +45,13 @@ def plan_task(
     lasso = optimal_lasso(product, objective)
     if lasso is None:
         raise _failure(formula, automaton, system)
+    return told(lasso, product, system, automaton)
+
+
+def told(
+    lasso: Lasso, product: Product, system: TransitionSystem, automaton: BuchiAutomaton
+) -> LocalPlan:
+    """Return the plan that a lasso of the product is."""
     prefix = _steps(lasso.prefix, product, system, automaton)
     suffix = _steps(lasso.suffix, product, system, automaton)
     first = next(place for place, step in enumerate(suffix) if step.satisfies)
@@ -70,7 +79,7 @@ def _step(
     step = int(product.step[edge])
     location = system.states[system.target[step]].location
     return PlanStep(
-        region=_region(system.regions[location], automaton.atoms),
+        region=region_named(system.regions[location], automaton.atoms),
         location=location,
         action=system.actions[system.action[step]],
         duration_s=float(system.stay_s[step]),
@@ -79,8 +88,8 @@ def _step(
     )
 
 
-def _region(names: Sequence[str], atoms: Sequence[str]) -> str:
-    """Return the first of a place's regions that the task names, else the first, else ""."""
+def region_named(names: Sequence[str], atoms: Sequence[str]) -> str:
+    """Return the first of a place's regions that the task names, else the first, else ``""``."""
     return next((name for name in names if name in atoms), names[0] if names else "")
 
 
