@@ -2,44 +2,17 @@
 
 from collections.abc import Iterator
 
-import numpy as np
 import pytest
 
-from tlcomm_core.geometry import Pose
+from support.random_system import PLACES, random_system
 from tlcomm_core.ltl import Formula, parse, translate
 from tlcomm_core.planning import product as products
 from tlcomm_core.planning.explanation import Move, Rival, explain_plan
 from tlcomm_core.planning.lasso import optimal_lasso
 from tlcomm_core.planning.product import Product
-from tlcomm_core.planning.transition_system import State, TransitionSystem
+from tlcomm_core.planning.transition_system import TransitionSystem
 
 TASKS = ["G F (a & F b)", "G F a & G F b", "G F (a & w)", "F G !a", "F a & G F b", "G F a | G F b"]
-PLACES = "abc"
-
-
-def random_system(seed: int) -> TransitionSystem:
-    """Return three places, four states and a few steps between them, some of which act."""
-    rng = np.random.default_rng(seed)
-    places = [0, *rng.integers(0, 3, 3).tolist()]
-    source = np.sort(np.concatenate((np.arange(4), rng.integers(0, 4, int(rng.integers(2, 6))))))
-    target = rng.integers(0, 4, len(source))
-    at_rest = np.array(places)[source] == np.array(places)[target]
-    action = np.where(at_rest, rng.integers(0, 2, len(source)), 0)
-    letters = [frozenset({place, "w"} if acts else {place}) for place in PLACES for acts in (0, 1)]
-    return TransitionSystem(
-        states=tuple(State(place, Pose(place, 0.0, yaw)) for yaw, place in enumerate(places)),
-        regions={place: (name,) for place, name in enumerate(PLACES)},
-        actions=(None, "w"),
-        labels=tuple(letters),
-        initial_label=0,
-        source=source,
-        target=target,
-        action=action,
-        label=2 * np.array(places)[target] + action,
-        drive_s=np.zeros(len(source)),
-        drive_m=np.zeros(len(source)),
-        stay_s=rng.integers(1, 5, len(source)).astype(float),
-    )
 
 
 def simple_cycles(product: Product) -> Iterator[list[int]]:
