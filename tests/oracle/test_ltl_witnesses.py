@@ -15,12 +15,14 @@ from tlcomm_core.ltl import (
     Profile,
     atom,
     conjunction,
+    parse,
     profile,
 )
 
 LETTERS = [frozenset(), frozenset("a"), frozenset("b"), frozenset("ab")]
 INNER = [operator for operator in Operator if operator.arity]
-MOST_LETTERS = 3
+MOST_LETTERS = 2
+CHANGE = parse("G F a & G F !a")
 
 
 def random_formula(rng: random.Random, depth: int) -> Formula:
@@ -32,8 +34,9 @@ def random_formula(rng: random.Random, depth: int) -> Formula:
 
 
 def random_task(rng: random.Random) -> Formula:
-    """Return a conjunction of up to three formulas, to which few words may be common."""
-    return conjunction([random_formula(rng, rng.randint(1, 3)) for _ in range(rng.randint(1, 3))])
+    """Return a conjunction of a few formulas, to which only longer words may be common."""
+    parts = [random_formula(rng, rng.randint(1, 3)) for _ in range(rng.randint(1, 3))]
+    return conjunction(parts + rng.choice([[], [CHANGE]]))
 
 
 def words() -> Iterator[LassoWord]:

@@ -31,6 +31,11 @@ def test_a_contradiction_names_its_parts() -> None:
     assert found.violating is not None
 
 
+def test_a_recurring_contradiction_leaves_nothing_open() -> None:
+    """Its automaton can go on for ever, but never accepts."""
+    assert profile(parse("G F (a & X b & X !b)")).undecided is None
+
+
 def test_a_valid_formula_is_violated_by_no_word() -> None:
     """Nor has it a conflict."""
     found = profile(parse("F a | G !a"))

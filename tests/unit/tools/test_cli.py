@@ -137,12 +137,16 @@ def test_a_task_without_a_plan_is_one_line(
     """A task that contradicts itself is bad input: exit status 2."""
     text = Path(SCENARIO).read_text("utf-8")
     task = "G F ((west_shelf & pick) & F (west_bench & place))"
-    (tmp_path / "bad.yaml").write_text(text.replace(task, "G F (pick & !pick)"), "utf-8")
-    status, _, err = run(capsys, "plan", "bad.yaml")
-    assert status == 2
-    assert re.fullmatch(
-        r"tlcomm: error: bad.yaml: agents.west.task: .* contradicts itself.*\n", err
-    )
+    bad = "F pick & G F place & G !pick"
+    (tmp_path / "bad.yaml").write_text(text.replace(task, bad), "utf-8")
+    reason = "'F pick' and 'G !pick' contradict each other: no word satisfies them all"
+    for verb in ("plan", "validate", "simulate", "run"):
+        status, out, err = run(capsys, verb, "bad.yaml")
+        assert (status, out) == (2, "")
+        assert err == f"tlcomm: error: bad.yaml: agents.west.task: {reason}\n"
+    status, out, _ = run(capsys, "ltl", bad)
+    assert status == 0
+    assert f"conflict      {reason}\n" in out
 
 
 def test_out_must_be_empty_and_writable(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -187,6 +191,52 @@ def test_plan(capsys: pytest.CaptureFixture[str]) -> None:
     assert out.startswith("east: G F ((east_bench & inspect)")
     assert "west: " not in out
     assert max(map(len, out.splitlines())) <= 80
+
+
+def test_plan_explained(capsys: pytest.CaptureFixture[str]) -> None:
+    """The second best suffix of the plant's first agent takes 35.35 s instead of 33.89 s."""
+    plant = str(ROOT / "scenarios" / "plant.yaml")
+    _, out, _ = run(capsys, "plan", plant, "--agent", "agent_1", "--explain")
+    assert "\n  why   the second best does without p1 → r1: 35.35 s against 33.89 s\n" in out
+    assert max(map(len, out.splitlines())) <= 80
+    document = json.loads(run(capsys, "plan", plant, "--explain", "--json")[1])
+    explanation = document["agents"]["agent_1"]["explanation"]
+    assert explanation["second_best"] == explanation["rivals"][-1]
+    assert explanation["second_best"]["without"] == {"from": "p1", "to": "r1", "action": None}
+    needed = [rival["without"] for rival in explanation["rivals"] if rival["suffix_s"] is None]
+    assert [move["action"] for move in needed] == ["unload", "measure", "collect"]
+    plain = json.loads(run(capsys, "plan", plant, "--json")[1])
+    assert "explanation" not in plain["agents"]["agent_1"]
+
+
+def test_a_plan_without_a_second_best_says_so(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """To inspect for ever is one move."""
+    text = Path(SCENARIO).read_text("utf-8")
+    task = "G F ((west_shelf & pick) & F (west_bench & place))"
+    (tmp_path / "one.yaml").write_text(text.replace(task, "F G (west_shelf & pick)"), "utf-8")
+    _, out, _ = run(capsys, "plan", "one.yaml", "--agent", "west", "--explain")
+    assert "\n  why   it is the only suffix: each of its moves is needed\n" in out
+
+
+def test_ltl_explained(capsys: pytest.CaptureFixture[str]) -> None:
+    """Class, determinism and three words, as text and as JSON."""
+    status, out, _ = run(capsys, "ltl", "a & X b", "--explain")
+    assert status == 0
+    assert "class         safety and co-safety" in out
+    assert "satisfied by  (a & b) for ever\nviolated by   (–) for ever\n" in out
+    assert "not yet       a … (presumably false)\n" in out
+    document = json.loads(run(capsys, "ltl", "F a & G !a", "--explain", "--json")[1])
+    assert document["conflict"] == ["F a", "G !a"]
+    assert document["explanation"] == {
+        "satisfiability": "unsatisfiable",
+        "class": "other",
+        "deterministic": True,
+        "satisfied": None,
+        "violated": {"stem": [], "loop": [[]]},
+        "not_yet": None,
+    }
 
 
 def test_ltl(capsys: pytest.CaptureFixture[str]) -> None:
