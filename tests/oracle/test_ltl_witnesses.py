@@ -98,9 +98,9 @@ def test_every_word_shows_what_it_is_said_to(seed: int) -> None:
 def test_the_random_formulas_cover_the_cases() -> None:
     """Among them are contradictions and valid ones, and some whose words are long."""
     rng = random.Random(0)  # noqa: S311  nothing secret
-    found = [profile(random_task(rng)) for _ in range(200)]
+    found = [profile(random_task(rng)) for _ in range(100)]
     assert sum(one.satisfying is None for one in found) > 3
     assert sum(one.violating is None for one in found) > 3
-    assert sum(one.undecided is None for one in found) > 10
+    assert sum(one.undecided is None for one in found) > 5
     satisfying = [effort(one.satisfying) for one in found if one.satisfying is not None]
-    assert sum(letters > 1 for letters, _ in satisfying) > 10
+    assert sum(letters > 1 for letters, _ in satisfying) > 5
