@@ -1,11 +1,11 @@
 """One agent as a shell holds it: brain and radio, on integer nanoseconds.
 
-``Member``      the same in one process and over ROS
-``create``      a member from a scenario
-``team_of``     what all its members know
-``local_plan``  an agent's plan for its task
-``system_of``   what it can do
-``check_tasks``  whether all agents have one
+``Member``          the same in one process and over ROS
+``create``          a member from a scenario
+``team_of``         what all its members know
+``local_plan``      an agent's plan for its task
+``explained_plan``  the same beside what else there is
+``check_tasks``      whether all agents have one
 """
 
 import math
@@ -20,6 +20,7 @@ from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.geometry import Pose
 from tlcomm_core.ltl import parse
+from tlcomm_core.planning.explanation import Explanation, explain_plan
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.planning.synthesis import plan_task
@@ -33,7 +34,7 @@ from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import TravelTimes
 
-__all__ = ["Member", "check_tasks", "create", "local_plan", "system_of", "team_of"]
+__all__ = ["Member", "check_tasks", "create", "explained_plan", "local_plan", "team_of"]
 
 # What a periodic controller may lose at the end of a turn or a straight: the rest of its period
 # and a late timer.
@@ -115,15 +116,29 @@ def local_plan(
     Raises:
         PlanningError: there is none; the message says whose.
     """
-    system = system_of(name, site, travel)
+    system = _system(name, site, travel)
     try:
         return plan_task(parse(site.scenario.agents[name].task), system, objective)
     except PlanningError as error:
         raise type(error)(f"agents.{name}.task: {error}") from error
 
 
-def system_of(name: str, site: Site, travel: TravelTimes) -> TransitionSystem:
-    """Return an agent's transition system."""
+def explained_plan(
+    name: str, site: Site, travel: TravelTimes, objective: Objective = SUFFIX_FIRST
+) -> Explanation:
+    """Return an agent's optimal local plan beside the best ones without a part of it.
+
+    Args:
+        name: of an agent that has a plan.
+        site: the scenario.
+        travel: as for ``local_plan``.
+        objective: as for ``local_plan``.
+    """
+    task = parse(site.scenario.agents[name].task)
+    return explain_plan(task, _system(name, site, travel), objective)
+
+
+def _system(name: str, site: Site, travel: TravelTimes) -> TransitionSystem:
     return build(
         travel,
         site.start_of(name),

@@ -7,10 +7,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
-from tlcomm_core.agent.member import local_plan, system_of
+from tlcomm_core.agent.member import explained_plan, local_plan
 from tlcomm_core.errors import InputError
-from tlcomm_core.ltl import parse
-from tlcomm_core.planning.explanation import Explanation, Rival, explain_plan
+from tlcomm_core.planning.explanation import Explanation, Rival
 from tlcomm_core.planning.lasso import Objective
 from tlcomm_core.planning.plan import PlanStep
 from tlcomm_core.scenario.loader import load_scenario
@@ -83,8 +82,7 @@ def _plan(name: str, site: Site, objective: Objective, *, is_explained: bool) ->
         "planning_wall_s": planning_wall_s,
     }
     if is_explained:
-        formula, system = parse(site.scenario.agents[name].task), system_of(name, site, travel)
-        told["explanation"] = _explanation(explain_plan(formula, system, objective))
+        told["explanation"] = _explanation(explained_plan(name, site, travel, objective))
     return told
 
 
