@@ -5,7 +5,7 @@
 ``team_of``         what all its members know
 ``local_plan``      an agent's plan for its task
 ``explained_plan``  the same beside what else there is
-``check_tasks``      whether all agents have one
+``check_tasks``     whether all agents have one
 """
 
 import math
