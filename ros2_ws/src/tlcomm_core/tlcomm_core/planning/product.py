@@ -125,6 +125,7 @@ class _Builder:
         self._price_ns = price_ns
 
     def build(self) -> Product:
+        """Return the product of what is reachable, its states numbered by their keys."""
         initial, initial_move = self._initial_states()
         layers = list(self._layers(initial))
         source = np.concatenate([layer.source for layer in layers])
