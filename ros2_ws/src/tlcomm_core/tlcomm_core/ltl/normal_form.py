@@ -3,13 +3,14 @@
 - ``negation_normal_form``   negations at the atoms only, constants folded
 - ``is_co_safe``             every word that satisfies it has a good prefix, by its syntax
 - ``recurring``              φ if the formula is G F φ
+- ``conjoined``              the formulas that a formula is the conjunction of
 """
 
 from typing import Final
 
 from tlcomm_core.ltl.formula import FALSE, TRUE, Formula, Operator, subformulas
 
-__all__ = ["is_co_safe", "negation_normal_form", "recurring"]
+__all__ = ["conjoined", "is_co_safe", "negation_normal_form", "recurring"]
 
 _DUAL: Final = {
     Operator.TRUE: Operator.FALSE,
@@ -78,6 +79,25 @@ def recurring(formula: Formula) -> Formula | None:
         return None
     inner = normal.children[0]
     return inner.children[0] if inner.operator is Operator.EVENTUALLY else None
+
+
+def conjoined(formula: Formula) -> tuple[Formula, ...]:
+    """Return the conjuncts of a formula in negation normal form, from left to right, each once.
+
+    G (f & g) counts as the two conjuncts G f and G g.
+    """
+    found: dict[Formula, None] = {}
+    stack = [formula]
+    while stack:
+        node = stack.pop()
+        inner = node.children[0] if node.operator is Operator.ALWAYS else TRUE
+        if node.operator is Operator.AND:
+            stack += reversed(node.children)
+        elif inner.operator is Operator.AND:
+            stack += [_fold_unary(Operator.ALWAYS, child) for child in reversed(inner.children)]
+        else:
+            found[node] = None
+    return tuple(found)
 
 
 def _both_polarities(
