@@ -14,7 +14,7 @@
 """
 
 from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction, Transition
-from tlcomm_core.ltl.conflict import conflict, conjunction, conjuncts, smallest_conflict
+from tlcomm_core.ltl.conflict import conflict, conjuncts, smallest_conflict
 from tlcomm_core.ltl.dot import to_dot
 from tlcomm_core.ltl.formula import (
     FALSE,
@@ -23,6 +23,7 @@ from tlcomm_core.ltl.formula import (
     Operator,
     atom,
     atoms,
+    conjunction,
     subformulas,
     to_text,
 )

@@ -18,8 +18,9 @@ from tlcomm_core.ltl.reduction import productive, reduced, renumbered
 
 __all__ = ["Parts", "assembled"]
 
-# Graphs with more cubes than this aren't reduced.
+# Graphs with more cubes than this aren't reduced; fewer if they are products, whose factors were.
 _MOST_CUBES: Final = 20_000
+_MOST_CUBES_OF_PRODUCTS: Final = 1_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,19 +54,20 @@ def assembled(parts: Parts, kind: Construction, *, any_order: bool = False) -> B
     """
     guards = CubeGuards(len(parts.atoms))
     graph = degeneralized(composed(parts.graphs, guards), any_order=any_order)
-    graph = _smaller(graph, guards)
+    most_cubes = _MOST_CUBES_OF_PRODUCTS if len(parts.graphs) > 1 else _MOST_CUBES
+    graph = _smaller(graph, guards, most_cubes)
     if parts.targets:
         targets = tuple(guards.number(cubes) for cubes in parts.targets)
-        graph = _smaller(joined(graph, targets, guards.both), guards)
+        graph = _smaller(joined(graph, targets, guards.both), guards, most_cubes)
     named = _Named(parts.atoms, guards)
     rows = tuple(named.transitions(row) for row in graph.rows)
     return BuchiAutomaton(parts.atoms, 0, rows, kind)
 
 
-def _smaller(graph: Graph, guards: CubeGuards) -> Graph:
+def _smaller(graph: Graph, guards: CubeGuards, most_cubes: int) -> Graph:
     """Reduce a grouped graph; a large one loses its useless states alone."""
     cubes = sum(len(guards.cubes(edge.literals)) for row in graph.rows for edge in row)
-    if cubes > _MOST_CUBES:
+    if cubes > most_cubes:
         return renumbered(productive(graph))
     return grouped(reduced(ungrouped(graph, guards)), guards)
 

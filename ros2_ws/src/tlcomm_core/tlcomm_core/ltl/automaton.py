@@ -24,6 +24,7 @@ class Construction(Enum):
     """How an automaton was made; the value is the word for reports."""
 
     RESTARTED_GOOD_PREFIX = "restarted good-prefix automaton"
+    COMPOSED = "composition of restarted good-prefix automata"
     TABLEAU = "tableau"
     GIVEN = "given automaton"
 

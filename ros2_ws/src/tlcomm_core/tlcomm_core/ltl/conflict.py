@@ -3,7 +3,6 @@
 - ``conjuncts``          the parts that a formula asks for all of
 - ``conflict``           a smallest set of parts that no word satisfies together
 - ``smallest_conflict``  the same for any notion of "possible together"
-- ``conjunction``        of several formulas
 """
 
 from collections.abc import Callable, Sequence
@@ -11,10 +10,10 @@ from itertools import combinations, islice
 from typing import Final
 
 from tlcomm_core.errors import LocalMisuseError
-from tlcomm_core.ltl.formula import TRUE, Formula, Operator, atoms
+from tlcomm_core.ltl.formula import Formula, Operator, atoms, conjunction
 from tlcomm_core.ltl.translation import translate
 
-__all__ = ["conflict", "conjunction", "conjuncts", "smallest_conflict"]
+__all__ = ["conflict", "conjuncts", "smallest_conflict"]
 
 # How many sets are tried in search of one with fewer members than a minimal one has.
 _MOST_TRIALS: Final = 200
@@ -93,14 +92,6 @@ def smallest_conflict(
     if len(trials) > _MOST_TRIALS:
         return tuple(kept)
     return next((chosen for chosen in trials if not is_possible(chosen)), tuple(kept))
-
-
-def conjunction(parts: Sequence[Formula]) -> Formula:
-    """Return the conjunction of some formulas."""
-    whole = parts[0] if parts else TRUE
-    for part in parts[1:]:
-        whole = Formula(Operator.AND, (whole, part))
-    return whole
 
 
 def _is_satisfiable(parts: Sequence[Formula]) -> bool:

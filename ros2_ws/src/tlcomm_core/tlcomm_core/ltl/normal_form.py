@@ -2,6 +2,7 @@
 
 - ``negation_normal_form``   negations at the atoms only, constants folded
 - ``is_co_safe``             every word that satisfies it has a good prefix, by its syntax
+- ``is_timeless``            it says something about the present letter alone
 - ``recurring``              φ if the formula is G F φ
 - ``conjoined``              the formulas that a formula is the conjunction of
 """
@@ -10,7 +11,7 @@ from typing import Final
 
 from tlcomm_core.ltl.formula import FALSE, TRUE, Formula, Operator, subformulas
 
-__all__ = ["conjoined", "is_co_safe", "negation_normal_form", "recurring"]
+__all__ = ["conjoined", "is_co_safe", "is_timeless", "negation_normal_form", "recurring"]
 
 _DUAL: Final = {
     Operator.TRUE: Operator.FALSE,
@@ -25,6 +26,7 @@ _DUAL: Final = {
     Operator.WEAK_UNTIL: Operator.STRONG_RELEASE,
     Operator.STRONG_RELEASE: Operator.WEAK_UNTIL,
 }
+_TIMELESS: Final = frozenset({Operator.ATOM, Operator.NOT, Operator.AND, Operator.OR})
 _NOT_CO_SAFE: Final = frozenset({Operator.RELEASE, Operator.ALWAYS, Operator.WEAK_UNTIL})
 
 # What U, R, W, M become when one operand is constant: F or G of the other, or that constant;
@@ -67,6 +69,11 @@ def is_co_safe(formula: Formula) -> bool:
     """
     normal = negation_normal_form(formula)
     return all(node.operator not in _NOT_CO_SAFE for node in subformulas(normal))
+
+
+def is_timeless(formula: Formula) -> bool:
+    """Return whether a formula in negation normal form has no operator of time and no constant."""
+    return all(node.operator in _TIMELESS for node in subformulas(formula))
 
 
 def recurring(formula: Formula) -> Formula | None:

@@ -16,15 +16,14 @@ from dataclasses import dataclass
 from typing import Final
 
 from tlcomm_core.ltl.automaton import strong_components
-from tlcomm_core.ltl.formula import Formula, Operator, subformulas
+from tlcomm_core.ltl.formula import Formula, Operator
 from tlcomm_core.ltl.graph import Edge, Graph, check_size
-from tlcomm_core.ltl.normal_form import conjoined
+from tlcomm_core.ltl.normal_form import conjoined, is_timeless
 
-__all__ = ["Recurrences", "joined", "separated"]
+__all__ = ["FEW", "Recurrences", "joined", "separated"]
 
 # So few make fewer states in the tableau.
-_FEW: Final = 4
-_TIMELESS: Final = frozenset({Operator.ATOM, Operator.NOT, Operator.AND, Operator.OR})
+FEW: Final = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,14 +43,12 @@ def separated(formula: Formula) -> Recurrences:
     """Return the conjuncts G F β of a formula in negation normal form, if there are many."""
     parts = conjoined(formula)
     found = {node: target for node in parts if (target := _recurring(node)) is not None}
-    if len(found) <= _FEW:
+    if len(found) <= FEW:
         return Recurrences(parts, ())
     return Recurrences(tuple(node for node in parts if node not in found), tuple(found.values()))
 
 
-def joined(
-    graph: Graph, targets: tuple[int, ...], both: Callable[[int, int], int | None]
-) -> Graph:
+def joined(graph: Graph, targets: tuple[int, ...], both: Callable[[int, int], int | None]) -> Graph:
     """Return a graph with one mark that waits for each target in turn, then for a graph's own mark.
 
     Args:
@@ -92,5 +89,4 @@ def _recurring(node: Formula) -> Formula | None:
     if inner.operator is not Operator.EVENTUALLY:
         return None
     target = inner.children[0]
-    timeless = all(part.operator in _TIMELESS for part in subformulas(target))
-    return target if timeless else None
+    return target if is_timeless(target) else None

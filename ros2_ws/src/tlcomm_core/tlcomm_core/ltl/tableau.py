@@ -8,14 +8,12 @@ An edge carries the mark of every eventuality that it doesn't postpone: an event
 never fulfilled is postponed for ever, and its mark isn't seen again.
 """
 
-from collections.abc import Iterable
-from functools import reduce
 from typing import Final
 
 from tlcomm_core.ltl.assembly import Parts, assembled
 from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction
 from tlcomm_core.ltl.expansion import EVENTUALITIES, Expansion
-from tlcomm_core.ltl.formula import TRUE, Formula, Operator, atoms, subformulas
+from tlcomm_core.ltl.formula import Formula, Operator, atoms, conjunction, subformulas
 from tlcomm_core.ltl.graph import Edge, Graph, check_size
 from tlcomm_core.ltl.recurrence import separated
 from tlcomm_core.ltl.reduction import reduced
@@ -62,13 +60,9 @@ def _factors(conjuncts: tuple[Formula, ...]) -> list[Formula]:
     """Return the formulas to expand apart: all together, but each of many lasting obligations."""
     lasting = [node for node in conjuncts if _is_lasting(node)]
     if len(lasting) < _MANY:
-        return [_conjunction(conjuncts)]
+        return [conjunction(conjuncts)]
     others = [node for node in conjuncts if node not in lasting]
-    return [_conjunction(others), *lasting] if others else lasting
-
-
-def _conjunction(conjuncts: Iterable[Formula]) -> Formula:
-    return reduce(lambda one, other: Formula(Operator.AND, (one, other)), conjuncts, TRUE)
+    return [conjunction(others), *lasting] if others else lasting
 
 
 def _is_lasting(node: Formula) -> bool:
