@@ -11,7 +11,12 @@ from random import Random
 
 import pytest
 
-from tlcomm_core.ltl import BuchiAutomaton, parse, restarted, translate
+from support.lasso_acceptance import accepts
+from support.lasso_semantics import holds
+from support.ltl_benchmarks import random_formula
+from tlcomm_core.ltl import BuchiAutomaton, Construction, atoms, parse, restarted, translate
+from tlcomm_core.ltl.assembly import assembled
+from tlcomm_core.ltl.tableau import tableau_parts
 
 Letter = frozenset[str]
 Move = tuple[Hashable, bool]
@@ -133,3 +138,22 @@ def test_what_is_done_once_leaves_the_rounds_alone() -> None:
     ]
     assert shortest_round(turned, *translated(automaton)) == 2
     assert shortest_round(without, *translated(automaton)) is None
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_for_few_letters_the_words_of_these_letters_are_told_apart(seed: int) -> None:
+    """On 10 words of three letters each, 30 conjunctions made for those letters alone agree with
+    the semantics.
+    """
+    rng = Random(seed)  # noqa: S311  nothing secret
+    for _ in range(30):
+        texts = [f"G (({random_formula(rng, 1)}) -> F ({random_formula(rng, 1)}))" for _ in "123"]
+        formula = parse(" & ".join([*texts, random_formula(rng, 2)]))
+        names = atoms(formula)
+        letters = [frozenset(name for name in names if rng.random() < 0.5) for _ in range(3)]
+        parts = tableau_parts(formula, names)
+        automaton = assembled(parts, Construction.FOR_LETTERS, letters=letters)
+        for _ in range(10):
+            stem, loop = (tuple(rng.choices(letters, k=rng.randint(1, 4))) for _ in range(2))
+            expected = holds(formula, stem, loop)
+            assert accepts(automaton, stem, loop) is expected, (str(formula), stem, loop)

@@ -37,8 +37,9 @@ def test_grouping_joins_edges_and_can_be_undone() -> None:
 
 def test_a_composition_carries_the_marks_of_all() -> None:
     """G F a beside G F b: one state, and an edge on a & b with both marks."""
-    parts = [Graph(((Edge(cube, 0, 1), Edge(0, 0, 0)),), 1) for cube in (IF_A, IF_B)]
     guards = CubeGuards(2)
+    rows = [(Edge(cube, 0, 1), Edge(0, 0, 0)) for cube in (IF_A, IF_B)]
+    parts = [grouped(Graph((row,), 1), guards) for row in rows]
     graph = ungrouped(composed(parts, guards), guards)
     assert graph.mark_count == 2
     assert len(graph.rows) == 1

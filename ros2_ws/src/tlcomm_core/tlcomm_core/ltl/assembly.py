@@ -4,12 +4,13 @@
 - ``assembled``   the automaton of the words that fit all of it
 """
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from typing import Final
 
+from tlcomm_core.ltl.alphabet import LetterGuards, sharpened
 from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction, Transition
-from tlcomm_core.ltl.composition import CubeGuards, composed, grouped, ungrouped
+from tlcomm_core.ltl.composition import CubeGuards, Guards, composed, grouped, ungrouped
 from tlcomm_core.ltl.degeneralization import degeneralized
 from tlcomm_core.ltl.graph import Edge, Graph
 from tlcomm_core.ltl.guard import Cube, Guard, simplified
@@ -38,7 +39,13 @@ class Parts:
     targets: tuple[tuple[int, ...], ...] = ()
 
 
-def assembled(parts: Parts, kind: Construction, *, any_order: bool = False) -> BuchiAutomaton:
+def assembled(
+    parts: Parts,
+    kind: Construction,
+    *,
+    any_order: bool = False,
+    letters: Collection[frozenset[str]] | None = None,
+) -> BuchiAutomaton:
     """Return the automaton of the words that all parts accept.
 
     Every state but the initial one of an empty automaton lies on an accepting run.
@@ -47,14 +54,15 @@ def assembled(parts: Parts, kind: Construction, *, any_order: bool = False) -> B
         parts: what is conjoined.
         kind: what the automaton says about itself.
         any_order: see ``degeneralized``.
+        letters: the letters of the words that matter; on others it has no edges.
 
     Raises:
         IntractableTaskError: it would be too large.
     Cost: see ``composed`` and ``degeneralized``.
     """
-    guards = CubeGuards(len(parts.atoms))
-    graph = degeneralized(composed(parts.graphs, guards), any_order=any_order)
-    most_cubes = _MOST_CUBES_OF_PRODUCTS if len(parts.graphs) > 1 else _MOST_CUBES
+    guards, factors = _guarded(parts, letters)
+    graph = degeneralized(composed(factors, guards), any_order=any_order)
+    most_cubes = _MOST_CUBES_OF_PRODUCTS if len(factors) > 1 else _MOST_CUBES
     graph = _smaller(graph, guards, most_cubes)
     if parts.targets:
         targets = tuple(guards.number(cubes) for cubes in parts.targets)
@@ -64,7 +72,18 @@ def assembled(parts: Parts, kind: Construction, *, any_order: bool = False) -> B
     return BuchiAutomaton(parts.atoms, 0, rows, kind)
 
 
-def _smaller(graph: Graph, guards: CubeGuards, most_cubes: int) -> Graph:
+def _guarded(
+    parts: Parts, letters: Collection[frozenset[str]] | None
+) -> tuple[Guards, list[Graph]]:
+    """Return the guards to work with and the parts' graphs, grouped."""
+    if letters is None:
+        guards = CubeGuards(len(parts.atoms))
+        return guards, [grouped(graph, guards) for graph in parts.graphs]
+    few = LetterGuards(parts.atoms, letters)
+    return few, [sharpened(grouped(graph, few), few) for graph in parts.graphs]
+
+
+def _smaller(graph: Graph, guards: Guards, most_cubes: int) -> Graph:
     """Reduce a grouped graph; a large one loses its useless states alone."""
     cubes = sum(len(guards.cubes(edge.literals)) for row in graph.rows for edge in row)
     if cubes > most_cubes:
@@ -75,7 +94,7 @@ def _smaller(graph: Graph, guards: CubeGuards, most_cubes: int) -> Graph:
 class _Named:
     """Transitions with the atoms' names in their guards, each guard made once."""
 
-    def __init__(self, atoms: tuple[str, ...], guards: CubeGuards) -> None:
+    def __init__(self, atoms: tuple[str, ...], guards: Guards) -> None:
         self._atoms = atoms
         self._guards = guards
         self._known: dict[frozenset[int], Guard] = {}

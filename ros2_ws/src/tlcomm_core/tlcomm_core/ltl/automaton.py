@@ -26,6 +26,7 @@ class Construction(Enum):
     RESTARTED_GOOD_PREFIX = "restarted good-prefix automaton"
     COMPOSED = "composition of restarted good-prefix automata"
     TABLEAU = "tableau"
+    FOR_LETTERS = "composition for the letters that can occur"
     GIVEN = "given automaton"
 
 

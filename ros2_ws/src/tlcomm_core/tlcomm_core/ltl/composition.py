@@ -1,5 +1,6 @@
 """Automata of conjunctions, put together from the automata of their parts.
 
+- ``Guards``           what guards a graph's edges, by number
 - ``CubeGuards``       disjunctions of cubes by number, joined once per pair
 - ``grouped``          a graph with one edge per target and marks, guarded by such a number
 - ``ungrouped``        back to an edge per cube
@@ -15,16 +16,32 @@ other improvements to LTL translation", 2013; generalized acceptance on transiti
 
 from collections.abc import Iterable, Sequence
 from itertools import product as pairs_of
-from typing import Final
+from typing import Final, Protocol
 
 from tlcomm_core.ltl.expansion import antichain
 from tlcomm_core.ltl.graph import Edge, Graph, check_size
 from tlcomm_core.ltl.reduction import productive, reduced
 
-__all__ = ["CubeGuards", "composed", "grouped", "ungrouped"]
+__all__ = ["CubeGuards", "Guards", "composed", "grouped", "ungrouped"]
 
 # Products with more cubes than this aren't reduced between two factors.
 _MOST_CUBES: Final = 400
+
+
+class Guards(Protocol):
+    """Guards by number; equal ones have the same."""
+
+    def number(self, cubes: Iterable[int]) -> int:
+        """Return the number of the guard that is the disjunction of some cubes."""
+        ...
+
+    def cubes(self, guard: int) -> tuple[int, ...]:
+        """Return the cubes of a guard; none if no letter passes it."""
+        ...
+
+    def both(self, one: int, other: int) -> int | None:
+        """Return the number of the conjunction of two guards, None if no letter passes it."""
+        ...
 
 
 class CubeGuards:
@@ -65,7 +82,7 @@ class CubeGuards:
         return self.number(kept) if kept else None
 
 
-def grouped(graph: Graph, guards: CubeGuards) -> Graph:
+def grouped(graph: Graph, guards: Guards) -> Graph:
     """Return a graph whose edges to the same target with the same marks are one.
 
     The ``literals`` of its edges are numbers of guards.
@@ -73,7 +90,7 @@ def grouped(graph: Graph, guards: CubeGuards) -> Graph:
     return Graph(tuple(_grouped_row(row, guards) for row in graph.rows), graph.mark_count)
 
 
-def ungrouped(graph: Graph, guards: CubeGuards) -> Graph:
+def ungrouped(graph: Graph, guards: Guards) -> Graph:
     """Return a grouped graph with an edge per cube."""
     rows = (
         tuple(Edge(cube, e.target, e.marks) for e in row for cube in guards.cubes(e.literals))
@@ -82,38 +99,37 @@ def ungrouped(graph: Graph, guards: CubeGuards) -> Graph:
     return Graph(tuple(rows), graph.mark_count)
 
 
-def composed(graphs: Sequence[Graph], guards: CubeGuards) -> Graph:
+def composed(graphs: Sequence[Graph], guards: Guards) -> Graph:
     """Return a grouped graph that accepts the words which all of some graphs accept.
 
     Its marks are the first graph's, then the second's, and so on.
 
     Args:
-        graphs: at least one, with an edge per cube.
+        graphs: at least one, grouped.
         guards: where the guards' numbers come from.
 
     Raises:
         IntractableTaskError: a product is too large.
     Cost: the product of the numbers of grouped edges.
     """
-    result = grouped(graphs[0], guards)
+    result = graphs[0]
     for graph in graphs[1:]:
-        result = productive(_product(result, grouped(graph, guards), guards))
+        result = productive(_product(result, graph, guards))
         cubes = sum(len(guards.cubes(edge.literals)) for row in result.rows for edge in row)
         if cubes <= _MOST_CUBES:
             result = grouped(reduced(ungrouped(result, guards)), guards)
     return result
 
 
-def _grouped_row(row: Iterable[Edge], guards: CubeGuards) -> tuple[Edge, ...]:
+def _grouped_row(row: Iterable[Edge], guards: Guards) -> tuple[Edge, ...]:
     cubes: dict[tuple[int, int], list[int]] = {}
     for edge in row:
         cubes.setdefault((edge.target, edge.marks), []).append(edge.literals)
-    return tuple(
-        Edge(guards.number(group), target, marks) for (target, marks), group in cubes.items()
-    )
+    numbered = ((guards.number(group), key) for key, group in cubes.items())
+    return tuple(Edge(guard, *key) for guard, key in numbered if guards.cubes(guard))
 
 
-def _product(one: Graph, other: Graph, guards: CubeGuards) -> Graph:
+def _product(one: Graph, other: Graph, guards: Guards) -> Graph:
     """Return the pairs of states that can be reached, each edge with the marks of both."""
     number = {(0, 0): 0}
     pending = [(0, 0)]

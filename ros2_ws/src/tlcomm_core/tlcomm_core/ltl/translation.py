@@ -3,8 +3,10 @@
 - ``translate``   chooses the construction
 """
 
+from collections.abc import Collection
 from dataclasses import replace
 
+from tlcomm_core.errors import IntractableTaskError
 from tlcomm_core.ltl.assembly import assembled
 from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction
 from tlcomm_core.ltl.formula import Formula, atoms, conjunction
@@ -19,12 +21,14 @@ from tlcomm_core.ltl.normal_form import (
     recurring,
 )
 from tlcomm_core.ltl.recurrence import FEW
-from tlcomm_core.ltl.tableau import tableau_automaton, tableau_parts
+from tlcomm_core.ltl.tableau import tableau_parts
 
 __all__ = ["translate"]
 
 
-def translate(formula: Formula) -> BuchiAutomaton:
+def translate(
+    formula: Formula, letters: Collection[frozenset[str]] | None = None
+) -> BuchiAutomaton:
     """Return a Büchi automaton of the words that satisfy a formula.
 
     □◇φ with syntactically co-safe φ (however it is written) becomes φ's good-prefix automaton,
@@ -34,22 +38,34 @@ def translate(formula: Formula) -> BuchiAutomaton:
     which each was satisfied at least once. Every other formula goes through the tableau, and so do
     five or more □◇β with β free of operators of time. The result's ``kind`` says which it was.
 
+    Args:
+        formula: any.
+        letters: the letters that can occur, if that is known. Where a conjunction's automaton is
+            too large, the one for words of these letters is made instead; it has no transitions
+            on others.
+
     Raises:
         IntractableTaskError: the automaton would be too large.
     Source: the class □◇φ^s of Section III-A.
     Cost: see ``restarted``, ``tableau_automaton`` and ``degeneralized`` (in any order).
     """
-    parts = conjoined(negation_normal_form(formula))
-    tasks = _tasks(parts)
-    if not tasks:
-        return tableau_automaton(formula)
-    if len(parts) == 1:
+    conjuncts = conjoined(negation_normal_form(formula))
+    tasks = _tasks(conjuncts)
+    if tasks and len(conjuncts) == 1:
         return restarted(*tasks.values())
     names = atoms(formula)
-    rest = tableau_parts(conjunction(node for node in parts if node not in tasks), names)
+    rest = conjunction(node for node in conjuncts if node not in tasks) if tasks else formula
+    parts = tableau_parts(rest, names)
     repeated = (_graph(restarted(task), names) for task in tasks.values())
-    whole = replace(rest, graphs=(*repeated, *rest.graphs))
-    return assembled(whole, Construction.COMPOSED, any_order=True)
+    parts = replace(parts, graphs=(*repeated, *parts.graphs))
+    kind = Construction.COMPOSED if tasks else Construction.TABLEAU
+    try:
+        return assembled(parts, kind, any_order=bool(tasks))
+    except IntractableTaskError:
+        if letters is None or len(parts.graphs) == 1:
+            raise
+    kind = Construction.FOR_LETTERS
+    return assembled(parts, kind, any_order=bool(tasks), letters=letters)
 
 
 def _tasks(parts: tuple[Formula, ...]) -> dict[Formula, Formula]:

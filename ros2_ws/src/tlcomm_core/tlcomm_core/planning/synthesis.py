@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from tlcomm_core.errors import PlanningError, UnreachableTaskError, UnsatisfiableTaskError
-from tlcomm_core.ltl import BuchiAutomaton, Cube, Formula, Guard, translate
+from tlcomm_core.ltl import BuchiAutomaton, Construction, Cube, Formula, Guard, translate
 from tlcomm_core.planning import product as products
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective, optimal_lasso
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
@@ -38,7 +38,7 @@ def plan_task(
     Source: Section IV-A.
     Cost: see ``translate``, ``product.build`` and ``optimal_lasso``.
     """
-    automaton = translate(formula)
+    automaton = translate(formula, system.labels)
     product = products.build(system, automaton)
     lasso = optimal_lasso(product, objective)
     if lasso is None:
@@ -99,6 +99,9 @@ def _failure(
     formula: Formula, automaton: BuchiAutomaton, system: TransitionSystem
 ) -> PlanningError:
     """Return the error that says why no run is accepting."""
+    if automaton.kind is Construction.FOR_LETTERS:
+        reason = "no way through the regions and actions fits all its parts"
+        return UnreachableTaskError(f"task {str(formula)!r} can't be done from the start: {reason}")
     if automaton.is_empty():
         return UnsatisfiableTaskError(f"task {str(formula)!r} contradicts itself: no word fits it")
     possible = frozenset[str]().union(*system.labels)
