@@ -18,9 +18,10 @@ from tlcomm_core.agent.radio import Radio
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.geometry import Pose
-from tlcomm_core.ltl import parse
+from tlcomm_core.ltl import conjunction, parse
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective
 from tlcomm_core.planning.plan import LocalPlan
+from tlcomm_core.planning.relaxation import SoftTask, soft_task
 from tlcomm_core.planning.synthesis import plan_task
 from tlcomm_core.planning.transition_system import build
 from tlcomm_core.protocol.actions import CountIgnored
@@ -121,10 +122,23 @@ def local_plan(
         site.regions_at,
         site.action_durations(name),
     )
+    agent, soft = site.scenario.agents[name], _soft_task(name, site)
+    formula = conjunction([parse(task) for task in agent.hard_tasks])
     try:
-        return plan_task(parse(site.scenario.agents[name].task), system, objective)
+        return plan_task(formula, system, objective, soft)
     except PlanningError as error:
-        raise type(error)(f"agents.{name}.task: {error}") from error
+        place = "tasks" if agent.tasks else "task"
+        raise type(error)(f"agents.{name}.{place}: {error}") from error
+
+
+def _soft_task(name: str, site: Site) -> SoftTask | None:
+    soft = site.scenario.agents[name].soft
+    if soft is None:
+        return None
+    try:
+        return soft_task(parse(soft.task), soft.weight_s)
+    except PlanningError as error:
+        raise type(error)(f"agents.{name}.soft.task: {error}") from error
 
 
 def check_tasks(site: Site) -> None:
