@@ -17,7 +17,6 @@
 from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction, Transition
 from tlcomm_core.ltl.conflict import (
     conflict,
-    conjunction,
     conjuncts,
     contradiction,
     known_conflict,
@@ -31,6 +30,7 @@ from tlcomm_core.ltl.formula import (
     Operator,
     atom,
     atoms,
+    conjunction,
     subformulas,
     to_text,
 )

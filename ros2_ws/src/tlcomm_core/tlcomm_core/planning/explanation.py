@@ -106,7 +106,7 @@ class _Comparison:
         self._soft: Final = soft
         self._system: Final = system
         self._objective: Final = objective
-        self._automaton: Final[BuchiAutomaton] = translate(formula)
+        self._automaton: Final[BuchiAutomaton] = translate(formula, system.labels)
         self._product: Final = products.build(system, self._automaton, soft)
         best = optimal_lasso(self._product, objective)
         if best is None:

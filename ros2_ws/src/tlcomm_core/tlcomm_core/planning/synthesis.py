@@ -47,7 +47,7 @@ def plan_task(
     Source: Section IV-A; with a soft task, see ``Relaxed``.
     Cost: see ``translate``, ``product.build`` and ``optimal_lasso``.
     """
-    automaton = translate(formula)
+    automaton = translate(formula, system.labels)
     product = products.build(system, automaton, soft)
     lasso = optimal_lasso(product, objective)
     if lasso is None:
