@@ -11,6 +11,7 @@ import math
 from typing import Final
 
 from tlcomm_core.agent.actions import Action
+from tlcomm_core.agent.avoidance import obstruction, travel_of
 from tlcomm_core.agent.brain import Brain, Settings
 from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
 from tlcomm_core.agent.events import MessageHeard, OdometryReceived, TimePassed
@@ -111,6 +112,12 @@ def local_plan(
 ) -> LocalPlan:
     """Return an agent's optimal local plan.
 
+    Args:
+        name: the agent's name.
+        site: the scenario.
+        travel: its travel times, as ``travel_of`` gives them.
+        objective: what is to be least.
+
     Raises:
         PlanningError: there is none; the message says whose.
     """
@@ -121,10 +128,13 @@ def local_plan(
         site.regions_at,
         site.action_durations(name),
     )
+    task = parse(site.scenario.agents[name].task)
     try:
-        return plan_task(parse(site.scenario.agents[name].task), system, objective)
+        return plan_task(task, system, objective)
     except PlanningError as error:
-        raise type(error)(f"agents.{name}.task: {error}") from error
+        blocked = obstruction(site, system.states[0].location, task, travel)
+        reason = f"{error}; {blocked}" if blocked else f"{error}"
+        raise type(error)(f"agents.{name}.task: {reason}") from error
 
 
 def check_tasks(site: Site) -> None:
@@ -133,9 +143,9 @@ def check_tasks(site: Site) -> None:
     Raises:
         PlanningError: an agent's task has no plan.
     """
-    atlas = Atlas(site.grid)
+    atlas = Atlas(site.grid, site.region_cells)
     for name in site.scenario.agents:
-        local_plan(name, site, atlas.travel(site.motion_of(name)))
+        local_plan(name, site, travel_of(name, site, atlas))
 
 
 def team_of(site: Site) -> Team:
@@ -156,14 +166,15 @@ def create(name: str, site: Site, pacing: Pacing, atlas: Atlas) -> Member:
         name: the agent's name.
         site: the scenario.
         pacing: how often its controller is asked.
-        atlas: travel times on the scenario's grid; members in one process may share it.
+        atlas: travel times on the scenario's grid and round its regions; members in one
+            process may share it.
 
     Raises:
         PlanningError: the agent's task has no plan.
     """
     scenario = site.scenario
     allowance_s = _ALLOWANCE_S[pacing]
-    travel = atlas.travel(site.motion_of(name, allowance_s))
+    travel = travel_of(name, site, atlas, allowance_s)
     team = team_of(site)
     # Members' plans lead through regions: with this done, the first round takes no longer than
     # later ones.

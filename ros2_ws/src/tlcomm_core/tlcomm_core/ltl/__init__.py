@@ -7,6 +7,7 @@
 - ``restarted``, ``good_prefix_automaton``, ``tableau_automaton``   its constructions
 - ``BuchiAutomaton``, ``GoodPrefixAutomaton``, ``Construction``, ``Transition``, ``Guard``, ``Cube``
 - ``conflict``, ``conjuncts``     which parts of a formula exclude each other
+- ``invariants``, ``forbidden``    what a formula demands of every letter
 - ``Monitor``, ``Verdict``        what a finite part of a word says about a formula
 - ``LassoWord``, ``accepted_word``   endless words as proof
 - ``to_hoa``, ``to_dot``          for other tools
@@ -30,6 +31,7 @@ from tlcomm_core.ltl.good_prefix import GoodPrefixAutomaton, good_prefix_automat
 from tlcomm_core.ltl.guard import Cube, Guard
 from tlcomm_core.ltl.hoa import to_hoa
 from tlcomm_core.ltl.hoa_reader import read_hoa
+from tlcomm_core.ltl.invariant import forbidden, invariants
 from tlcomm_core.ltl.monitor import Monitor, Verdict
 from tlcomm_core.ltl.normal_form import is_co_safe, negation_normal_form, recurring
 from tlcomm_core.ltl.parser import MAX_LENGTH, MAX_NESTING, explain, parse
@@ -60,7 +62,9 @@ __all__ = [
     "conjunction",
     "conjuncts",
     "explain",
+    "forbidden",
     "good_prefix_automaton",
+    "invariants",
     "is_co_safe",
     "negation_normal_form",
     "parse",

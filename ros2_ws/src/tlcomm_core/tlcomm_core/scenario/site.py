@@ -5,6 +5,7 @@
 ``region_location``  the location at which a region is visited
 """
 
+import math
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Self
@@ -28,11 +29,13 @@ class Site:
         scenario: as loaded.
         grid: cells and locations.
         region_location: the location at which each region is visited.
+        region_cells: the locations whose cells each region touches.
     """
 
     scenario: Scenario
     grid: Grid
     region_location: MappingProxyType[str, int]
+    region_cells: MappingProxyType[str, NDArray[np.intp]]
     _members: tuple[tuple[str, NDArray[np.intp]], ...]
 
     @classmethod
@@ -41,12 +44,16 @@ class Site:
         grid = grid_of(scenario.workspace)
         locations: dict[str, int] = {}
         members: list[tuple[str, NDArray[np.intp]]] = []
+        cells: dict[str, NDArray[np.intp]] = {}
         for name, region in scenario.workspace.regions.items():
             location = region_location(grid, region)
             assert location is not None, "checks have refused regions without a free centre"
             locations[name] = location
             members.append((name, grid.locations_within(*region.at_m, region.radius_m)))
-        return cls(scenario, grid, MappingProxyType(locations), tuple(members))
+            cells[name] = grid.touched_by(*region.at_m, region.radius_m)
+        return cls(
+            scenario, grid, MappingProxyType(locations), MappingProxyType(cells), tuple(members)
+        )
 
     @property
     def planned_range_m(self) -> float:
@@ -56,6 +63,16 @@ class Site:
     def regions_at(self, location: int) -> frozenset[str]:
         """Return the regions whose disc contains a location."""
         return frozenset(name for name, members in self._members if location in members)
+
+    def regions_beside(self, name: str) -> frozenset[str]:
+        """Return the other regions whose discs overlap with a region's."""
+        regions = self.scenario.workspace.regions
+        own = regions[name]
+        return frozenset(
+            other
+            for other, region in regions.items()
+            if other != name and math.dist(own.at_m, region.at_m) <= own.radius_m + region.radius_m
+        )
 
     def motion_of(self, agent: str, segment_allowance_s: float = 0.0) -> Motion:
         """Return an agent's motion with an allowance per segment."""

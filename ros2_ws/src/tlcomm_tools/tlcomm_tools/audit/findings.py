@@ -13,6 +13,7 @@ from tlcomm_tools.audit.links import WindowFinding, judge_windows, team_interval
 from tlcomm_tools.audit.strategies import StrategyFinding, audit_strategies
 from tlcomm_tools.audit.tasks import TaskFinding, audit_task
 from tlcomm_tools.audit.tracks import build_tracks
+from tlcomm_tools.audit.trespass import audit_trespass
 from tlcomm_tools.bag.reader import RecordedRun
 
 __all__ = ["AUDIT_FORMAT", "Audit", "audit_run"]
@@ -98,6 +99,7 @@ def audit_run(scenario: Scenario, run: RecordedRun) -> Audit:
         *faults,
         *missed,
         *(line for own in tasks for line in own.violations),
+        *(line for own in agents for line in audit_trespass(scenario, own, track_of.get(own))),
         *strategies.violations,
     ]
     return Audit(
