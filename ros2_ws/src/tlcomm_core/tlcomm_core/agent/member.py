@@ -22,6 +22,7 @@ from tlcomm_core.geometry import Pose
 from tlcomm_core.ltl import parse
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective
 from tlcomm_core.planning.plan import LocalPlan
+from tlcomm_core.planning.repertoire import Condition
 from tlcomm_core.planning.synthesis import plan_task
 from tlcomm_core.planning.transition_system import build
 from tlcomm_core.protocol.actions import CountIgnored
@@ -127,6 +128,7 @@ def local_plan(
         site.region_location,
         site.regions_at,
         site.action_durations(name),
+        _conditions(name, site),
     )
     task = parse(site.scenario.agents[name].task)
     try:
@@ -135,6 +137,14 @@ def local_plan(
         blocked = obstruction(site, system.states[0].location, task, travel)
         reason = f"{error}; {blocked}" if blocked else f"{error}"
         raise type(error)(f"agents.{name}.task: {reason}") from error
+
+
+def _conditions(name: str, site: Site) -> dict[str, Condition]:
+    actions = site.scenario.conditional_actions_of(name)
+    return {
+        action: Condition(None if own.at is None else frozenset(own.at), frozenset(own.after))
+        for action, own in actions.items()
+    }
 
 
 def check_tasks(site: Site) -> None:

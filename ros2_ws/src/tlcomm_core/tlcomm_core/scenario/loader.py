@@ -19,7 +19,7 @@ from pydantic_core import ErrorDetails
 
 from tlcomm_core.errors import ScenarioError
 from tlcomm_core.scenario import model
-from tlcomm_core.scenario.checks import Finding, check, did_you_mean
+from tlcomm_core.scenario.checks import check
 from tlcomm_core.scenario.document import (
     MAX_BYTES,
     Document,
@@ -28,6 +28,7 @@ from tlcomm_core.scenario.document import (
     parse_yaml,
     place_text,
 )
+from tlcomm_core.scenario.finding import Finding, did_you_mean
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.workspace.map_image import MapDescription, read_image
 
@@ -161,7 +162,7 @@ def _raise_first(findings: list[Finding], document: Document, name: str) -> None
 
 def _finding(details: ErrorDetails) -> Finding:
     """Return a validation error in the words of this project."""
-    place: Place = details["loc"]
+    place: Place = tuple(part for part in details["loc"] if part not in model.ACTION_FORMS)
     found = _shown(details["input"])
     if place[-1:] == ("[key]",):
         what = f"{found} is no name; expected a letter, then letters, digits and single underscores"
