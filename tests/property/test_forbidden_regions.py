@@ -48,7 +48,7 @@ def test_no_leg_enters_a_disc_that_is_avoided(data: st.DataObject) -> None:
     )
     radius_m = data.draw(st.one_of(st.sampled_from([0.25, 0.5]), st.floats(0.01, 2.0)))
     cells = grid.touched_by(*middle, radius_m)
-    travel = Atlas(grid, {"danger": cells}).travel(MOTION, frozenset({"danger"}))
+    travel = Atlas(grid, {"danger": (*middle, radius_m)}).travel(MOTION, frozenset({"danger"}))
     free = np.setdiff1d(np.arange(len(grid)), cells)
     assume(len(free) > 1)
     start, target = data.draw(st.tuples(*[st.sampled_from(free.tolist())] * 2))
@@ -104,7 +104,7 @@ def test_the_team_still_meets(run: Simulated) -> None:
 def test_a_meeting_place_is_never_in_the_danger(run: Simulated) -> None:
     """Neither where an agent goes nor anything else of the strategies held."""
     site = Site.from_scenario(danger_hall())
-    cells = site.region_cells["danger"].tolist()
+    cells = site.grid.touched_by(*site.region_discs["danger"]).tolist()
     places = [
         site.grid.location_at(own.x_m, own.y_m)
         for record in run.records.strategies

@@ -51,7 +51,7 @@ def test_a_region_that_is_allowed_inside_another_stays_open() -> None:
 def test_travel_times_are_those_round_the_forbidden_cells() -> None:
     """The way is longer than for who doesn't mind, and its plan takes the longer time."""
     site = Site.from_scenario(danger_hall())
-    atlas = Atlas(site.grid, site.region_cells)
+    atlas = Atlas(site.grid, site.region_discs)
     careful, bold = (travel_of(name, site, atlas) for name in ("careful", "bold"))
     east, west = (site.region_location[name] for name in ("east", "west"))
     assert careful.time_to(east)[west].min() > bold.time_to(east)[west].min() + 0.5

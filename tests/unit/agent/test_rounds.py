@@ -14,9 +14,10 @@ from tlcomm_core.workspace.atlas import Atlas
 
 TEAM = Team(frozenset({"one", "two"}), 0.96, 30.0, 3.0)
 GRID = hall(2).grid
-# The upper right quarter of the hall's cells, as a region that may be avoided.
-CORNER = np.flatnonzero((GRID.locations_m > np.median(GRID.locations_m, axis=0)).all(axis=1))
-ATLAS = Atlas(GRID, {"corner": CORNER})
+# A corner of the hall, as a region that may be avoided.
+CORNER_DISC = (6.0, 2.0, 0.8)
+CORNER = GRID.touched_by(*CORNER_DISC)
+ATLAS = Atlas(GRID, {"corner": CORNER_DISC})
 ROUNDS = MeetingRounds(ATLAS, TEAM, 0.0)
 
 

@@ -6,7 +6,7 @@ from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.grid import Grid
 from tlcomm_core.workspace.travel import Motion
 
-ATLAS = Atlas(Grid((2.5, 0.5), 0.5), {"gate": np.array([2]), "end": np.array([4])})
+ATLAS = Atlas(Grid((2.5, 0.5), 0.5), {"gate": (1.25, 0.25, 0.2), "end": (2.25, 0.1, 0.2)})
 MOTION = Motion(1.0, 1.5)
 
 

@@ -26,12 +26,12 @@ def avoided_regions(name: str, site: Site, task: Formula) -> frozenset[str]:
         PlanningError: the agent starts in a cell that such a region touches.
     """
     actions = site.action_durations(name).keys()
-    beside = {region: actions | site.regions_beside(region) for region in site.region_location}
+    beside = {region: actions | others for region, others in site.regions_beside.items()}
     avoided = forbidden(task, beside)
     start = site.start_of(name)
     home = site.grid.location_at(start.x_m, start.y_m)
     for region in sorted(avoided):
-        if home in site.region_cells[region]:
+        if home in site.grid.touched_by(*site.region_discs[region]):
             raise PlanningError(
                 f"agents.{name}.task: region {region!r} is forbidden always, but the start "
                 f"({start.x_m!r}, {start.y_m!r}) lies in a cell that it touches; move the start"

@@ -153,7 +153,7 @@ def check_tasks(site: Site) -> None:
     Raises:
         PlanningError: an agent's task has no plan.
     """
-    atlas = Atlas(site.grid, site.region_cells)
+    atlas = Atlas(site.grid, site.region_discs)
     for name in site.scenario.agents:
         local_plan(name, site, travel_of(name, site, atlas))
 

@@ -7,26 +7,23 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Final
 
-import numpy as np
-from numpy.typing import NDArray
-
-from tlcomm_core.workspace.grid import Grid
+from tlcomm_core.workspace.grid import Disc, Grid
 from tlcomm_core.workspace.travel import Motion, TravelTimes
 
 __all__ = ["Atlas"]
 
-_NO_REGIONS: Final[Mapping[str, NDArray[np.intp]]] = MappingProxyType({})
+_NO_REGIONS: Final[Mapping[str, Disc]] = MappingProxyType({})
 
 
 class Atlas:
     """Travel times by motion and avoided regions, made when they are first asked for."""
 
-    def __init__(self, grid: Grid, regions: Mapping[str, NDArray[np.intp]] = _NO_REGIONS) -> None:
+    def __init__(self, grid: Grid, regions: Mapping[str, Disc] = _NO_REGIONS) -> None:
         """Begin without any.
 
         Args:
             grid: what all drive on.
-            regions: what can be avoided: by name, the locations whose cells a region touches.
+            regions: what can be avoided, by name.
         """
         self.grid: Final = grid
         self._regions: Final = regions
@@ -38,9 +35,12 @@ class Atlas:
         return regions <= self._regions.keys()
 
     def grid_avoiding(self, avoided: frozenset[str]) -> Grid:
-        """Return the grid on which no move touches some regions; the same for equal ones."""
+        """Return the grid on which no move enters a cell that shares area with some regions.
+
+        The same object for equal regions.
+        """
         if avoided not in self._grids:
-            cells = {name: self._regions[name] for name in sorted(avoided)}
+            cells = {name: self.grid.touched_by(*self._regions[name]) for name in sorted(avoided)}
             self._grids[avoided] = self.grid.avoiding(cells)
         return self._grids[avoided]
 

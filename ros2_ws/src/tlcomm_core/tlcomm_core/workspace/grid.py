@@ -3,6 +3,7 @@
 ``Grid``          cells, their centres (*locations*) and the moves between them
 ``HEADING_STEPS`` cell steps (columns, rows) of the eight lattice headings, 45° apart from +x on
 ``Box``           a closed rectangle: x_min, y_min, x_max, y_max in metres
+``Disc``          a closed disc: x, y of its middle and radius in metres
 """
 
 import math
@@ -16,9 +17,10 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-__all__ = ["HEADING_STEPS", "Box", "Grid"]
+__all__ = ["HEADING_STEPS", "Box", "Disc", "Grid"]
 
 Box = tuple[float, float, float, float]
+Disc = tuple[float, float, float]
 
 HEADING_STEPS: Final = ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1))
 

@@ -99,7 +99,7 @@ def _measure_planning(problem: Problem, repeats: int) -> dict[str, Any]:
 
 
 def _plan(name: str, site: Site) -> None:
-    local_plan(name, site, travel_of(name, site, Atlas(site.grid, site.region_cells)))
+    local_plan(name, site, travel_of(name, site, Atlas(site.grid, site.region_discs)))
 
 
 def _median_s(work: Callable[[], object], repeats: int) -> float:

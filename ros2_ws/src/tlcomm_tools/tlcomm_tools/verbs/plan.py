@@ -60,7 +60,7 @@ def run(options: Namespace) -> Status:
 
 def _plan(name: str, site: Site, objective: Objective) -> dict[str, Any]:
     begun_s = time.perf_counter()
-    travel = travel_of(name, site, Atlas(site.grid, site.region_cells))
+    travel = travel_of(name, site, Atlas(site.grid, site.region_discs))
     plan = local_plan(name, site, travel, objective)
     planning_wall_s = time.perf_counter() - begun_s
     stem, loop = plan.word
