@@ -23,6 +23,11 @@ def site_with(task: str, **regions: Region) -> Site:
     return Site.from_scenario(scenario.model_copy(update=update))
 
 
+def avoided_of(site: Site, task: str) -> frozenset[str]:
+    """Return what ``careful`` would avoid for a task."""
+    return avoided_regions("careful", site, parse(task), site.start_of("careful"))
+
+
 @pytest.mark.parametrize(
     ("task", "avoided"),
     [
@@ -36,7 +41,7 @@ def site_with(task: str, **regions: Region) -> Site:
 )
 def test_what_the_task_forbids_always_is_avoided(task: str, avoided: set[str]) -> None:
     """Not what it forbids without an action, with one, or until something happens."""
-    assert avoided_regions("careful", Site.from_scenario(danger_hall()), parse(task)) == avoided
+    assert avoided_of(Site.from_scenario(danger_hall()), task) == avoided
 
 
 def test_a_region_that_is_allowed_inside_another_stays_open() -> None:
@@ -44,7 +49,7 @@ def test_a_region_that_is_allowed_inside_another_stays_open() -> None:
     task = "G (danger -> shelter) & G F shelter"
     shelter = Region(at_m=(4.25, 2.75), radius_m=0.3)
     site = site_with(task, shelter=shelter)
-    assert avoided_regions("careful", site, parse(task)) == set()
+    assert avoided_of(site, task) == set()
     check_tasks(site)
 
 

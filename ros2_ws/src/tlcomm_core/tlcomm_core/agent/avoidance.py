@@ -6,6 +6,7 @@
 """
 
 from tlcomm_core.errors import PlanningError
+from tlcomm_core.geometry import Pose
 from tlcomm_core.ltl import Formula, atoms, forbidden, parse
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.workspace.atlas import Atlas
@@ -14,13 +15,14 @@ from tlcomm_core.workspace.travel import TravelTimes
 __all__ = ["avoided_regions", "obstruction", "travel_of"]
 
 
-def avoided_regions(name: str, site: Site, task: Formula) -> frozenset[str]:
+def avoided_regions(name: str, site: Site, task: Formula, start: Pose) -> frozenset[str]:
     """Return the regions in which an agent never satisfies its task, whatever it does there.
 
     Args:
         name: the agent's name.
         site: the scenario.
         task: the agent's task.
+        start: where it begins with it.
 
     Raises:
         PlanningError: the agent starts in a cell that such a region touches.
@@ -28,24 +30,27 @@ def avoided_regions(name: str, site: Site, task: Formula) -> frozenset[str]:
     actions = site.action_durations(name).keys()
     beside = {region: actions | others for region, others in site.regions_beside.items()}
     avoided = forbidden(task, beside)
-    start = site.start_of(name)
     home = site.grid.location_at(start.x_m, start.y_m)
     for region in sorted(avoided):
         if home in site.grid.touched_by(*site.region_discs[region]):
             raise PlanningError(
-                f"agents.{name}.task: region {region!r} is forbidden always, but the start "
+                f"region {region!r} is forbidden always, but the start "
                 f"({start.x_m!r}, {start.y_m!r}) lies in a cell that it touches; move the start"
             )
     return avoided
 
 
 def travel_of(name: str, site: Site, atlas: Atlas, segment_allowance_s: float = 0.0) -> TravelTimes:
-    """Return an agent's travel times, keeping out of what its task forbids always.
+    """Return an agent's travel times for its task, keeping out of what that forbids always.
 
     Raises:
         PlanningError: the agent starts in such a region.
     """
-    avoided = avoided_regions(name, site, parse(site.scenario.agents[name].task))
+    task = parse(site.scenario.agents[name].task)
+    try:
+        avoided = avoided_regions(name, site, task, site.start_of(name))
+    except PlanningError as error:
+        raise PlanningError(f"agents.{name}.task: {error}") from error
     return atlas.travel(site.motion_of(name, segment_allowance_s), avoided)
 
 
