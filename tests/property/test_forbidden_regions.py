@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from itertools import pairwise
 
 import numpy as np
@@ -11,14 +12,19 @@ from hypothesis import strategies as st
 
 from support.danger_hall import danger_hall
 from tlcomm_core.agent.actions import TaskEventKind
+from tlcomm_core.agent.member import check_tasks
+from tlcomm_core.errors import PlanningError
 from tlcomm_core.geometry import Pose
 from tlcomm_core.mission import Mission
-from tlcomm_core.scenario.model import Scenario
+from tlcomm_core.scenario.generator import random_scenario
+from tlcomm_core.scenario.model import Agent, Scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import Simulated, simulate
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.grid import Grid
 from tlcomm_core.workspace.travel import HEADINGS_RAD, Motion
+from tlcomm_tools.audit.tracks import build_tracks
+from tlcomm_tools.audit.trespass import audit_trespass, forbidden_regions
 
 SLACK_M = 1e-6
 MOTION = Motion(1.0, 1.5)
@@ -113,3 +119,40 @@ def test_a_meeting_place_is_never_in_the_danger(run: Simulated) -> None:
     ]
     assert places
     assert not set(places) & set(cells)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_members_that_avoid_different_regions_meet_and_stay_out(seed: int) -> None:
+    """In random workspaces, each agent forbidden what it needn't visit and doesn't start in."""
+    scenario = guarded_scenario(seed)
+    run = simulated(scenario, rounds=3)
+    ended = [own for own in run.records.tasks if own.event.kind is TaskEventKind.MEETING_ENDED]
+    assert len(ended) == 4 * len(scenario.agents)
+    end_s = run.sim_ns * 1e-9
+    tracks, _ = build_tracks(run.records.odometry, tuple(scenario.agents), end_s)
+    watched = sum(len(forbidden_regions(scenario, track.agent)) for track in tracks)
+    assert watched >= len(scenario.agents)
+    assert [line for own in tracks for line in audit_trespass(scenario, own.agent, own)] == []
+
+
+def guarded_scenario(seed: int) -> Scenario:
+    """Return a random scenario in which each agent's task forbids up to two regions."""
+    scenario = random_scenario(np.random.default_rng(seed), 4, regions=9)
+    agents = {}
+    for name, agent in scenario.agents.items():
+        own = agent
+        for region in sorted(scenario.workspace.regions, reverse=True):
+            task = f"G !{region} & {own.task}"
+            with suppress(PlanningError):
+                trial = own.model_copy(update={"task": task})
+                check_tasks(alone(scenario, name, trial))
+                own = trial
+            if own.task.count("!") == 2:
+                break
+        agents[name] = own
+    return scenario.model_copy(update={"agents": agents})
+
+
+def alone(scenario: Scenario, name: str, agent: Agent) -> Site:
+    """Return the site of one agent alone."""
+    return Site.from_scenario(scenario.model_copy(update={"agents": {name: agent}}))
