@@ -24,7 +24,7 @@ from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.planning.repertoire import Condition
 from tlcomm_core.planning.synthesis import plan_task
-from tlcomm_core.planning.transition_system import build
+from tlcomm_core.planning.transition_system import TransitionSystem, build
 from tlcomm_core.protocol.actions import CountIgnored
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.protocol.negotiation import Phase
@@ -122,14 +122,7 @@ def local_plan(
     Raises:
         PlanningError: there is none; the message says whose.
     """
-    system = build(
-        travel,
-        site.start_of(name),
-        site.region_location,
-        site.regions_at,
-        site.action_durations(name),
-        _conditions(name, site),
-    )
+    system = _system(name, site, travel)
     task = parse(site.scenario.agents[name].task)
     try:
         return plan_task(task, system, objective)
@@ -139,12 +132,20 @@ def local_plan(
         raise type(error)(f"agents.{name}.task: {reason}") from error
 
 
-def _conditions(name: str, site: Site) -> dict[str, Condition]:
+def _system(name: str, site: Site, travel: TravelTimes) -> TransitionSystem:
     actions = site.scenario.conditional_actions_of(name)
-    return {
+    conditions = {
         action: Condition(None if own.at is None else frozenset(own.at), frozenset(own.after))
         for action, own in actions.items()
     }
+    return build(
+        travel,
+        site.start_of(name),
+        site.region_location,
+        site.regions_at,
+        site.action_durations(name),
+        conditions,
+    )
 
 
 def check_tasks(site: Site) -> None:
