@@ -15,6 +15,7 @@ __all__ = [
     "MAX_OBSTACLES",
     "Action",
     "Agent",
+    "AnyAction",
     "Communication",
     "Drive",
     "DriveOverride",
@@ -118,16 +119,11 @@ def _action_form(value: object) -> str:
 
 
 # A number is a duration: most actions need nothing first.
-Actions = Annotated[
-    dict[
-        Name,
-        Annotated[
-            Annotated[NotNegative, Tag(ACTION_FORMS[0])] | Annotated[Action, Tag(ACTION_FORMS[1])],
-            Discriminator(_action_form),
-        ],
-    ],
-    Field(max_length=MAX_REGIONS),
+AnyAction = Annotated[
+    Annotated[NotNegative, Tag(ACTION_FORMS[0])] | Annotated[Action, Tag(ACTION_FORMS[1])],
+    Discriminator(_action_form),
 ]
+Actions = Annotated[dict[Name, AnyAction], Field(max_length=MAX_REGIONS)]
 
 
 class Agent(_Section):
