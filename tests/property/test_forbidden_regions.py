@@ -140,14 +140,14 @@ def guarded_scenario(seed: int) -> Scenario:
     scenario = random_scenario(np.random.default_rng(seed), 4, regions=9)
     agents = {}
     for name, agent in scenario.agents.items():
-        own = agent
+        own, whole = agent, agent.whole_task
         for region in sorted(scenario.workspace.regions, reverse=True):
-            task = f"G !{region} & {own.task}"
+            task = f"G !{region} & {whole}"
             with suppress(PlanningError):
                 trial = own.model_copy(update={"task": task})
                 check_tasks(alone(scenario, name, trial))
-                own = trial
-            if own.task.count("!") == 2:
+                own, whole = trial, task
+            if whole.count("!") == 2:
                 break
         agents[name] = own
     return scenario.model_copy(update={"agents": agents})

@@ -10,6 +10,7 @@ from tlcomm_core.ltl import parse
 from tlcomm_core.scenario.model import Region, Scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.workspace.atlas import Atlas
+from tlcomm_tools.audit.trespass import forbidden_regions
 
 
 def site_with(task: str, **regions: Region) -> Site:
@@ -98,3 +99,14 @@ def test_the_hall_is_what_it_says() -> None:
     """Both agents have a plan."""
     scenario: Scenario = danger_hall()
     check_tasks(Site.from_scenario(scenario))
+
+
+def test_any_of_several_tasks_may_forbid() -> None:
+    """What one of them forbids is avoided, and told from the poses too."""
+    scenario = danger_hall("G F west")
+    careful = scenario.agents["careful"].model_copy(update={"tasks": ("G !danger",)})
+    agents = scenario.agents | {"careful": careful}
+    site = Site.from_scenario(scenario.model_copy(update={"agents": agents}))
+    travel = travel_of("careful", site, Atlas(site.grid, site.region_discs))
+    assert travel.grid.avoided.keys() == {"danger"}
+    assert forbidden_regions(site.scenario, "careful") == ["danger"]

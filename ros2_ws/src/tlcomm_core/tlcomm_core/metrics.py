@@ -134,7 +134,7 @@ def patience_s(scenario: Scenario, agent: str) -> float:
 
     Every window leaves time for at least one more action of the task; two windows are spare.
     """
-    words = re.findall(r"\w+", scenario.agents[agent].task)
+    words = re.findall(r"\w+", scenario.agents[agent].whole_task)
     actions = sum(word in scenario.actions_of(agent) for word in words)
     return (actions + _SPARE_WINDOWS) * scenario.communication.period_s
 

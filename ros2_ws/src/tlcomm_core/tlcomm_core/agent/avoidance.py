@@ -7,7 +7,7 @@
 
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.geometry import Pose
-from tlcomm_core.ltl import Formula, atoms, forbidden, parse
+from tlcomm_core.ltl import Formula, atoms, conjunction, forbidden, parse
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import TravelTimes
@@ -41,16 +41,18 @@ def avoided_regions(name: str, site: Site, task: Formula, start: Pose) -> frozen
 
 
 def travel_of(name: str, site: Site, atlas: Atlas, segment_allowance_s: float = 0.0) -> TravelTimes:
-    """Return an agent's travel times for its task, keeping out of what that forbids always.
+    """Return an agent's travel times for its tasks, keeping out of what these forbid always.
 
     Raises:
         PlanningError: the agent starts in such a region.
     """
-    task = parse(site.scenario.agents[name].task)
+    agent = site.scenario.agents[name]
+    task = conjunction([parse(part) for part in agent.hard_tasks])
     try:
         avoided = avoided_regions(name, site, task, site.start_of(name))
     except PlanningError as error:
-        raise PlanningError(f"agents.{name}.task: {error}") from error
+        place = "tasks" if agent.tasks else "task"
+        raise PlanningError(f"agents.{name}.{place}: {error}") from error
     return atlas.travel(site.motion_of(name, segment_allowance_s), avoided)
 
 

@@ -19,9 +19,10 @@ from tlcomm_core.agent.radio import Radio
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.geometry import Pose
-from tlcomm_core.ltl import parse
+from tlcomm_core.ltl import conjunction, parse
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective
 from tlcomm_core.planning.plan import LocalPlan
+from tlcomm_core.planning.relaxation import SoftTask, soft_task
 from tlcomm_core.planning.repertoire import Condition
 from tlcomm_core.planning.synthesis import plan_task
 from tlcomm_core.planning.transition_system import TransitionSystem, build
@@ -123,13 +124,15 @@ def local_plan(
         PlanningError: there is none; the message says whose.
     """
     system = _system(name, site, travel)
-    task = parse(site.scenario.agents[name].task)
+    agent, soft = site.scenario.agents[name], _soft_task(name, site)
+    formula = conjunction([parse(task) for task in agent.hard_tasks])
     try:
-        return plan_task(task, system, objective)
+        return plan_task(formula, system, objective, soft)
     except PlanningError as error:
-        blocked = obstruction(site, system.states[0].location, task, travel)
+        blocked = obstruction(site, system.states[0].location, formula, travel)
         reason = f"{error}; {blocked}" if blocked else f"{error}"
-        raise type(error)(f"agents.{name}.task: {reason}") from error
+        place = "tasks" if agent.tasks else "task"
+        raise type(error)(f"agents.{name}.{place}: {reason}") from error
 
 
 def _system(name: str, site: Site, travel: TravelTimes) -> TransitionSystem:
@@ -146,6 +149,16 @@ def _system(name: str, site: Site, travel: TravelTimes) -> TransitionSystem:
         site.action_durations(name),
         conditions,
     )
+
+
+def _soft_task(name: str, site: Site) -> SoftTask | None:
+    soft = site.scenario.agents[name].soft
+    if soft is None:
+        return None
+    try:
+        return soft_task(parse(soft.task), soft.weight_s)
+    except PlanningError as error:
+        raise type(error)(f"agents.{name}.soft.task: {error}") from error
 
 
 def check_tasks(site: Site) -> None:

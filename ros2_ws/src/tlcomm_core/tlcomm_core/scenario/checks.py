@@ -3,7 +3,7 @@
 ``check``  all findings of a scenario
 """
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import Final
 
 import numpy as np
@@ -13,8 +13,9 @@ from tlcomm_core.errors import FormulaError
 from tlcomm_core.ltl.formula import atoms
 from tlcomm_core.ltl.parser import explain, parse
 from tlcomm_core.scenario.conditions import check_conditions
+from tlcomm_core.scenario.document import Place
 from tlcomm_core.scenario.finding import Finding, did_you_mean
-from tlcomm_core.scenario.model import Scenario, Workspace
+from tlcomm_core.scenario.model import Agent, Scenario, Workspace
 from tlcomm_core.scenario.site import grid_of, region_location
 from tlcomm_core.workspace.grid import Grid
 
@@ -140,15 +141,33 @@ def _starts(scenario: Scenario, grid: Grid) -> Iterator[Finding]:
 
 def _tasks(scenario: Scenario) -> Iterator[Finding]:
     for name, agent in scenario.agents.items():
-        place = ("agents", name, "task")
         known = {*scenario.workspace.regions, *scenario.actions_of(name)}
-        try:
-            unknown = sorted({*atoms(parse(agent.task))} - known)
-        except FormulaError as error:
-            yield Finding(place, explain(error))
-            continue
-        for atom in unknown:
-            yield Finding(place, f"unknown region or action {atom!r}; {did_you_mean(atom, known)}")
+        formulas = [*_hard_tasks(agent)]
+        if not formulas:
+            yield Finding(("agents", name, "task"), "missing; expected a formula, here or in tasks")
+        if agent.soft is not None:
+            formulas.append((("soft", "task"), agent.soft.task))
+        for place, text in formulas:
+            for what in _flaws(text, known):
+                yield Finding(("agents", name, *place), what)
+
+
+def _hard_tasks(agent: Agent) -> Iterator[tuple[Place, str]]:
+    if agent.task is not None:
+        yield ("task",), agent.task
+    for index, text in enumerate(agent.tasks):
+        yield ("tasks", index), text
+
+
+def _flaws(text: str, known: Collection[str]) -> Iterator[str]:
+    """Say what is wrong with a formula over some names."""
+    try:
+        unknown = sorted({*atoms(parse(text))}.difference(known))
+    except FormulaError as error:
+        yield explain(error)
+        return
+    for atom in unknown:
+        yield f"unknown region or action {atom!r}; {did_you_mean(atom, known)}"
 
 
 def _connectivity(scenario: Scenario) -> Iterator[Finding]:
@@ -172,13 +191,14 @@ def _reachability(scenario: Scenario, grid: Grid) -> Iterator[Finding]:
     home = {name: region_location(grid, region) for name, region in regions.items()}
     for name, agent in scenario.agents.items():
         start = grid.location_at(*agent.start[:2])
-        for region in sorted(home.keys() & atoms(parse(agent.task))):
-            if grid.components[start] != grid.components[home[region]]:
-                yield Finding(
-                    ("agents", name, "task"),
-                    f"region {region!r} can't be reached from the start"
-                    f" {_point(agent.start[:2])}: obstacles close every way",
-                )
+        for place, text in _hard_tasks(agent):
+            for region in sorted(home.keys() & atoms(parse(text))):
+                if grid.components[start] != grid.components[home[region]]:
+                    yield Finding(
+                        ("agents", name, *place),
+                        f"region {region!r} can't be reached from the start"
+                        f" {_point(agent.start[:2])}: obstacles close every way",
+                    )
 
 
 def _covered(grid: Grid, x_m: float, y_m: float) -> bool:

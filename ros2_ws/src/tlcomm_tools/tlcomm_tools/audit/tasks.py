@@ -78,7 +78,7 @@ def audit_task(
         if record.event.kind is TaskEventKind.TASK_SATISFIED
     ]
     violations = [*_misplaced(scenario, agent, events, track), *_hasty(scenario, agent, events)]
-    part = recurring_part(read_formula(scenario.agents[agent].task))
+    part = recurring_part(read_formula(scenario.agents[agent].whole_task))
     if part is None:
         return TaskFinding(agent, len(claimed_s), None, None, tuple(violations))
     word = [_initial_letter(scenario, agent), *(_letter(scenario, step, track) for step in steps)]

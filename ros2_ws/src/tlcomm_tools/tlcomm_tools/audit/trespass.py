@@ -51,7 +51,7 @@ def forbidden_regions(scenario: Scenario, agent: str) -> list[str]:
 
     It may act, and be in regions that overlap; it isn't in any other.
     """
-    parts = list(_always(read_formula(scenario.agents[agent].task), inside=False))
+    parts = list(_always(read_formula(scenario.agents[agent].whole_task), inside=False))
     regions = scenario.workspace.regions
     found = []
     for name, region in regions.items():
