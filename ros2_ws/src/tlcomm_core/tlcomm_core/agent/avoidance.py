@@ -1,5 +1,6 @@
 """Driving that never touches what an agent's task forbids for ever.
 
+``hard_task``        what its plan must satisfy
 ``avoided_regions``  the regions that an agent keeps out of
 ``travel_of``        its travel times, keeping out of them
 ``obstruction``      what that makes impossible
@@ -12,7 +13,12 @@ from tlcomm_core.scenario.site import Site
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import TravelTimes
 
-__all__ = ["avoided_regions", "obstruction", "travel_of"]
+__all__ = ["avoided_regions", "hard_task", "obstruction", "travel_of"]
+
+
+def hard_task(name: str, site: Site) -> Formula:
+    """Return all that an agent's plan must satisfy, as one formula."""
+    return conjunction([parse(task) for task in site.scenario.agents[name].hard_tasks])
 
 
 def avoided_regions(name: str, site: Site, task: Formula, start: Pose) -> frozenset[str]:
@@ -46,12 +52,10 @@ def travel_of(name: str, site: Site, atlas: Atlas, segment_allowance_s: float = 
     Raises:
         PlanningError: the agent starts in such a region.
     """
-    agent = site.scenario.agents[name]
-    task = conjunction([parse(part) for part in agent.hard_tasks])
     try:
-        avoided = avoided_regions(name, site, task, site.start_of(name))
+        avoided = avoided_regions(name, site, hard_task(name, site), site.start_of(name))
     except PlanningError as error:
-        place = "tasks" if agent.tasks else "task"
+        place = "tasks" if site.scenario.agents[name].tasks else "task"
         raise PlanningError(f"agents.{name}.{place}: {error}") from error
     return atlas.travel(site.motion_of(name, segment_allowance_s), avoided)
 

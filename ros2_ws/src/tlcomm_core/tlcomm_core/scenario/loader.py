@@ -11,6 +11,7 @@ expected; the first in the file if there are several.
 
 import json
 from pathlib import Path
+from types import UnionType
 from typing import Any, Final, TypeVar, get_args
 
 import yaml
@@ -193,6 +194,8 @@ def _fields(root: type[BaseModel], place: Place) -> frozenset[str]:
         section = section.model_fields[part].annotation if is_model else get_args(section)[-1]
         if section == AnyAction:
             section = Action
+        if isinstance(section, UnionType):
+            section, _ = get_args(section)  # or None
     named = frozenset(section.model_fields)
     return named | {"map"} if section is Workspace else named
 
