@@ -8,6 +8,7 @@
 - ``BuchiAutomaton``, ``GoodPrefixAutomaton``, ``Construction``, ``Transition``, ``Guard``, ``Cube``
 - ``conflict``, ``known_conflict``, ``conjuncts``, ``contradiction``   parts that exclude each other
 - ``profile``, ``Profile``, ``OpenWord``, ``TemporalClass``   what a formula is, with words as proof
+- ``invariants``, ``forbidden``    what a formula demands of every letter
 - ``Monitor``, ``Verdict``        what a finite part of a word says about a formula
 - ``LassoWord``, ``accepted_word``   endless words as proof
 - ``to_hoa``, ``to_dot``          for other tools
@@ -38,6 +39,7 @@ from tlcomm_core.ltl.good_prefix import GoodPrefixAutomaton, good_prefix_automat
 from tlcomm_core.ltl.guard import Cube, Guard
 from tlcomm_core.ltl.hoa import to_hoa
 from tlcomm_core.ltl.hoa_reader import read_hoa
+from tlcomm_core.ltl.invariant import forbidden, invariants
 from tlcomm_core.ltl.monitor import Monitor, Verdict
 from tlcomm_core.ltl.normal_form import is_co_safe, negation_normal_form, recurring
 from tlcomm_core.ltl.parser import MAX_LENGTH, MAX_NESTING, explain, parse
@@ -73,7 +75,9 @@ __all__ = [
     "conjuncts",
     "contradiction",
     "explain",
+    "forbidden",
     "good_prefix_automaton",
+    "invariants",
     "is_co_safe",
     "known_conflict",
     "negation_normal_form",

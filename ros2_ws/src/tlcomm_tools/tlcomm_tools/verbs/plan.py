@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
+from tlcomm_core.agent.avoidance import travel_of
 from tlcomm_core.agent.member import explained_plan, local_plan
 from tlcomm_core.errors import InputError
 from tlcomm_core.planning.explanation import Explanation, Rival
@@ -15,7 +16,7 @@ from tlcomm_core.planning.plan import LocalPlan, PlanStep
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.model import Soft
 from tlcomm_core.scenario.site import Site
-from tlcomm_core.workspace.travel import TravelTimes
+from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_number, format_table
 from tlcomm_tools.verbs.options import positive_fraction, print_json
@@ -67,7 +68,7 @@ def run(options: Namespace) -> Status:
 def _plan(name: str, site: Site, objective: Objective, *, is_explained: bool) -> dict[str, Any]:
     agent = site.scenario.agents[name]
     begun_s = time.perf_counter()
-    travel = TravelTimes(site.grid, site.motion_of(name))
+    travel = travel_of(name, site, Atlas(site.grid, site.region_discs))
     plan = local_plan(name, site, travel, objective)
     planning_wall_s = time.perf_counter() - begun_s
     stem, loop = plan.word
