@@ -339,8 +339,9 @@ def test_the_last_of_several_tasks_counts() -> None:
     [
         ("G F (b &", InputError, "task: .*column 9"),
         ("G F (b & sing)", InputError, "task: unknown region or action 'sing'"),
-        ("F b & G !b", PlanningError, "contradicts itself"),
+        ("F b & G !b", PlanningError, "contradict"),
         ("G F (a & b)", PlanningError, "can't be done"),
+        ("G F (a & pick) & G !b", PlanningError, "forbids region 'b' always"),
     ],
 )
 def test_without_a_plan_the_old_task_goes_on(

@@ -230,6 +230,7 @@ class Brain:
             linear_mps=settings.travel.motion.linear_mps,
             angular_radps=settings.travel.motion.angular_radps,
             stops=self._itinerary.next_stops(self._pose, horizon_s),
+            avoided=tuple(sorted(settings.travel.grid.avoided)),
         )
 
     def _next_change_s(self, meeting: _Meeting) -> float:
