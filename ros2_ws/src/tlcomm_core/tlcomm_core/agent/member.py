@@ -1,16 +1,18 @@
 """One agent as a shell holds it: brain and radio, on integer nanoseconds.
 
-``Member``      the same in one process and over ROS
-``create``      a member from a scenario
-``team_of``     what all its members know
-``local_plan``  an agent's plan for its task
-``check_tasks``  whether all agents have one
+``Member``          the same in one process and over ROS
+``create``          a member from a scenario
+``team_of``         what all its members know
+``local_plan``      an agent's plan for its task
+``explained_plan``  the same beside what else there is
+``check_tasks``     whether all agents have one
 """
 
 import math
 from typing import Final
 
 from tlcomm_core.agent.actions import Action
+from tlcomm_core.agent.avoidance import hard_task, obstruction, travel_of
 from tlcomm_core.agent.brain import Brain, Settings
 from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
 from tlcomm_core.agent.events import MessageHeard, OdometryReceived, TimePassed
@@ -18,12 +20,14 @@ from tlcomm_core.agent.radio import Radio
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.geometry import Pose
-from tlcomm_core.ltl import conjunction, parse
+from tlcomm_core.ltl import parse
+from tlcomm_core.planning.explanation import Explanation, explain_plan
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.planning.relaxation import SoftTask, soft_task
+from tlcomm_core.planning.repertoire import Condition
 from tlcomm_core.planning.synthesis import plan_task
-from tlcomm_core.planning.transition_system import build
+from tlcomm_core.planning.transition_system import TransitionSystem, build
 from tlcomm_core.protocol.actions import CountIgnored
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.protocol.negotiation import Phase
@@ -33,7 +37,7 @@ from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import TravelTimes
 
-__all__ = ["Member", "check_tasks", "create", "local_plan", "team_of"]
+__all__ = ["Member", "check_tasks", "create", "explained_plan", "local_plan", "team_of"]
 
 # What a periodic controller may lose at the end of a turn or a straight: the rest of its period
 # and a late timer.
@@ -112,23 +116,55 @@ def local_plan(
 ) -> LocalPlan:
     """Return an agent's optimal local plan.
 
+    Args:
+        name: the agent's name.
+        site: the scenario.
+        travel: its travel times, as ``travel_of`` gives them.
+        objective: what is to be least.
+
     Raises:
         PlanningError: there is none; the message says whose.
     """
-    system = build(
+    system, soft = _system(name, site, travel), _soft_task(name, site)
+    task = hard_task(name, site)
+    try:
+        return plan_task(task, system, objective, soft)
+    except PlanningError as error:
+        blocked = obstruction(site, system.states[0].location, task, travel)
+        reason = f"{error}; {blocked}" if blocked else f"{error}"
+        place = "tasks" if site.scenario.agents[name].tasks else "task"
+        raise type(error)(f"agents.{name}.{place}: {reason}") from error
+
+
+def explained_plan(
+    name: str, site: Site, travel: TravelTimes, objective: Objective = SUFFIX_FIRST
+) -> Explanation:
+    """Return an agent's optimal local plan beside the best ones without a part of it.
+
+    Args:
+        name: of an agent that has a plan.
+        site: the scenario.
+        travel: as for ``local_plan``.
+        objective: as for ``local_plan``.
+    """
+    system, soft = _system(name, site, travel), _soft_task(name, site)
+    return explain_plan(hard_task(name, site), system, objective, soft)
+
+
+def _system(name: str, site: Site, travel: TravelTimes) -> TransitionSystem:
+    actions = site.scenario.conditional_actions_of(name)
+    conditions = {
+        action: Condition(None if own.at is None else frozenset(own.at), frozenset(own.after))
+        for action, own in actions.items()
+    }
+    return build(
         travel,
         site.start_of(name),
         site.region_location,
         site.regions_at,
         site.action_durations(name),
+        conditions,
     )
-    agent, soft = site.scenario.agents[name], _soft_task(name, site)
-    formula = conjunction([parse(task) for task in agent.hard_tasks])
-    try:
-        return plan_task(formula, system, objective, soft)
-    except PlanningError as error:
-        place = "tasks" if agent.tasks else "task"
-        raise type(error)(f"agents.{name}.{place}: {error}") from error
 
 
 def _soft_task(name: str, site: Site) -> SoftTask | None:
@@ -147,9 +183,9 @@ def check_tasks(site: Site) -> None:
     Raises:
         PlanningError: an agent's task has no plan.
     """
-    atlas = Atlas(site.grid)
+    atlas = Atlas(site.grid, site.region_discs)
     for name in site.scenario.agents:
-        local_plan(name, site, atlas.travel(site.motion_of(name)))
+        local_plan(name, site, travel_of(name, site, atlas))
 
 
 def team_of(site: Site) -> Team:
@@ -170,14 +206,15 @@ def create(name: str, site: Site, pacing: Pacing, atlas: Atlas) -> Member:
         name: the agent's name.
         site: the scenario.
         pacing: how often its controller is asked.
-        atlas: travel times on the scenario's grid; members in one process may share it.
+        atlas: travel times on the scenario's grid and round its regions; members in one
+            process may share it.
 
     Raises:
         PlanningError: the agent's task has no plan.
     """
     scenario = site.scenario
     allowance_s = _ALLOWANCE_S[pacing]
-    travel = atlas.travel(site.motion_of(name, allowance_s))
+    travel = travel_of(name, site, atlas, allowance_s)
     team = team_of(site)
     # Members' plans lead through regions: with this done, the first round takes no longer than
     # later ones.

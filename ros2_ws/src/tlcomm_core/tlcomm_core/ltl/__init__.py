@@ -6,7 +6,9 @@
 - ``translate``                   the Büchi automaton that planning uses
 - ``restarted``, ``good_prefix_automaton``, ``tableau_automaton``   its constructions
 - ``BuchiAutomaton``, ``GoodPrefixAutomaton``, ``Construction``, ``Transition``, ``Guard``, ``Cube``
-- ``conflict``, ``conjuncts``     which parts of a formula exclude each other
+- ``conflict``, ``known_conflict``, ``conjuncts``, ``contradiction``   parts that exclude each other
+- ``profile``, ``Profile``, ``OpenWord``, ``TemporalClass``   what a formula is, with words as proof
+- ``invariants``, ``forbidden``    what a formula demands of every letter
 - ``Monitor``, ``Verdict``        what a finite part of a word says about a formula
 - ``LassoWord``, ``accepted_word``   endless words as proof
 - ``to_hoa``, ``to_dot``          for other tools
@@ -14,7 +16,13 @@
 """
 
 from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction, Transition
-from tlcomm_core.ltl.conflict import conflict, conjunction, conjuncts, smallest_conflict
+from tlcomm_core.ltl.conflict import (
+    conflict,
+    conjuncts,
+    contradiction,
+    known_conflict,
+    smallest_conflict,
+)
 from tlcomm_core.ltl.dot import to_dot
 from tlcomm_core.ltl.formula import (
     FALSE,
@@ -23,6 +31,7 @@ from tlcomm_core.ltl.formula import (
     Operator,
     atom,
     atoms,
+    conjunction,
     subformulas,
     to_text,
 )
@@ -30,9 +39,11 @@ from tlcomm_core.ltl.good_prefix import GoodPrefixAutomaton, good_prefix_automat
 from tlcomm_core.ltl.guard import Cube, Guard
 from tlcomm_core.ltl.hoa import to_hoa
 from tlcomm_core.ltl.hoa_reader import read_hoa
+from tlcomm_core.ltl.invariant import forbidden, invariants
 from tlcomm_core.ltl.monitor import Monitor, Verdict
 from tlcomm_core.ltl.normal_form import is_co_safe, negation_normal_form, recurring
 from tlcomm_core.ltl.parser import MAX_LENGTH, MAX_NESTING, explain, parse
+from tlcomm_core.ltl.profile import OpenWord, Profile, TemporalClass, profile
 from tlcomm_core.ltl.tableau import tableau_automaton
 from tlcomm_core.ltl.translation import translate
 from tlcomm_core.ltl.word import LassoWord, accepted_word, word_text
@@ -50,7 +61,10 @@ __all__ = [
     "Guard",
     "LassoWord",
     "Monitor",
+    "OpenWord",
     "Operator",
+    "Profile",
+    "TemporalClass",
     "Transition",
     "Verdict",
     "accepted_word",
@@ -59,11 +73,16 @@ __all__ = [
     "conflict",
     "conjunction",
     "conjuncts",
+    "contradiction",
     "explain",
+    "forbidden",
     "good_prefix_automaton",
+    "invariants",
     "is_co_safe",
+    "known_conflict",
     "negation_normal_form",
     "parse",
+    "profile",
     "read_hoa",
     "recurring",
     "restarted",

@@ -1,6 +1,6 @@
 """The optimal accepting lasso of a product.
 
-- ``Objective``      what is to be least
+- ``Objective``      what is to be least, exactly: ``Key``
 - ``SUFFIX_FIRST``   the paper's
 - ``Lasso``          edges of the prefix and of the suffix
 - ``optimal_lasso``  the best one, exactly
@@ -17,7 +17,7 @@ from scipy.sparse.csgraph import connected_components
 from tlcomm_core.planning.product import Product
 from tlcomm_core.planning.shortest_paths import Arcs, Bools, Floats, Graph, Ints, ShortestPaths
 
-__all__ = ["SUFFIX_FIRST", "Lasso", "Objective", "optimal_lasso"]
+__all__ = ["SUFFIX_FIRST", "Key", "Lasso", "Objective", "optimal_lasso"]
 
 Key = tuple[Fraction | int, ...]
 
