@@ -8,6 +8,7 @@
 - ``BuchiAutomaton``, ``GoodPrefixAutomaton``, ``Construction``, ``Transition``, ``Guard``, ``Cube``
 - ``conflict``, ``conjuncts``     which parts of a formula exclude each other
 - ``Monitor``, ``Verdict``        what a finite part of a word says about a formula
+- ``RunMonitor``                 the same for an automaton
 - ``LassoWord``, ``accepted_word``   endless words as proof
 - ``to_hoa``, ``to_dot``          for other tools
 - ``read_hoa``                    from other tools
@@ -33,6 +34,7 @@ from tlcomm_core.ltl.hoa_reader import read_hoa
 from tlcomm_core.ltl.monitor import Monitor, Verdict
 from tlcomm_core.ltl.normal_form import is_co_safe, negation_normal_form, recurring
 from tlcomm_core.ltl.parser import MAX_LENGTH, MAX_NESTING, explain, parse
+from tlcomm_core.ltl.run_monitor import RunMonitor
 from tlcomm_core.ltl.tableau import tableau_automaton
 from tlcomm_core.ltl.translation import translate
 from tlcomm_core.ltl.word import LassoWord, accepted_word, word_text
@@ -51,6 +53,7 @@ __all__ = [
     "LassoWord",
     "Monitor",
     "Operator",
+    "RunMonitor",
     "Transition",
     "Verdict",
     "accepted_word",
