@@ -1,0 +1,207 @@
+"""The optimum of Problem 2 with a certificate.
+
+``MOST_AGENTS``    of how many agents it is found in reasonable time
+``Optimum``        the best team strategy found, and what is proven about it
+``solve_exactly``  branch and bound over the communication time
+"""
+
+import heapq
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tlcomm_core.game.placement import Neighbourhood, cheapest_placement
+from tlcomm_core.game.potential import potential
+from tlcomm_core.game.problem import Profile, RoundProblem
+
+__all__ = ["MOST_AGENTS", "Optimum", "solve_exactly"]
+
+MOST_AGENTS: Final = 10
+"""Each further agent triples the time and doubles the memory."""
+
+# Two sums of the same costs in different orders may differ by this much.
+_ROUNDING_S: Final = 1e-7
+
+
+@dataclass(frozen=True, slots=True)
+class Optimum:
+    """The best team strategy found.
+
+    Attributes:
+        profile: the team strategy.
+        potential_s: its Φ.
+        bound_s: no team strategy has a lower Φ than this; equal to ``potential_s`` but for
+            rounding when the search ran to its end.
+        placements: how many times the cheapest placement was computed.
+    """
+
+    profile: Profile
+    potential_s: float
+    bound_s: float
+    placements: int
+
+    @property
+    def gap_s(self) -> float:
+        """How much better another team strategy could be at the most."""
+        return max(0.0, self.potential_s - self.bound_s)
+
+
+def solve_exactly(
+    problem: RoundProblem, start: Profile, is_over: Callable[[], bool] = lambda: False
+) -> Optimum:
+    """Return the team strategy of least potential, or the best until interrupted.
+
+    For a bound τ on the arrivals the problem falls apart: Φ = N·max(τ, r·T_c) + Σ_i c_i(z_i) with
+    c_i(z) = min δ − t over the candidates h with t ≤ τ, and the cheapest connected placement for
+    these costs is P(τ), which falls as τ rises. So N·τ_lower + P(τ_upper) bounds Φ from below for
+    all τ of an interval; intervals are halved, the most promising first, until no bound is left
+    below the best potential found.
+
+    Args:
+        problem: a round of few agents: time and memory grow like 3^N and 2^N.
+        start: an admissible team strategy, such as an equilibrium; the better, the faster.
+        is_over: asked before each placement; ends the search early.
+
+    Source: Problem 2 of the paper, Eq. (5) and (8).
+    """
+    search = _Search(problem, start)
+    while search.is_open and not is_over():
+        search.branch()
+    return search.optimum
+
+
+@dataclass(order=True, slots=True)
+class _Interval:
+    """Communication times not yet ruled out, by their indices in the sorted arrivals."""
+
+    bound_s: float
+    first: int
+    last: int
+    placement_s: float
+
+
+class _Search:
+    """Branch and bound over the communication time; times count from r·T_c."""
+
+    def __init__(self, problem: RoundProblem, start: Profile) -> None:
+        self._costs = _Costs(problem)
+        self._best = start
+        self._best_s = self._costs.potential_s(start)
+        self._placements = 0
+        self._open: list[_Interval] = []
+        last = len(self._costs.times_s) - 1
+        if last >= 0:
+            self._examine(0, last)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether something better may still be found."""
+        return bool(self._open) and self._open[0].bound_s < self._best_s - _ROUNDING_S
+
+    @property
+    def optimum(self) -> Optimum:
+        """What is known now."""
+        bound_s = min(self._best_s, self._open[0].bound_s) if self._open else self._best_s
+        return Optimum(self._best, self._best_s, bound_s, self._placements)
+
+    def branch(self) -> None:
+        """Halve the most promising interval."""
+        interval = heapq.heappop(self._open)
+        times_s, team = self._costs.times_s, self._costs.team
+        # Later than this no time can beat the best one found.
+        latest_s = (self._best_s - _ROUNDING_S - interval.placement_s) / team
+        last = min(interval.last, int(np.searchsorted(times_s, latest_s)) - 1)
+        if last < interval.first:
+            return
+        middle_s = (times_s[interval.first] + times_s[last]) / 2.0
+        middle = int(np.searchsorted(times_s, middle_s, side="right")) - 1
+        self._examine(interval.first, middle)
+        if middle < last:
+            bound_s = team * times_s[middle + 1] + interval.placement_s
+            self._push(bound_s, middle + 1, last, interval.placement_s)
+
+    def _examine(self, first: int, last: int) -> None:
+        """Compute the cheapest placement for the interval's upper end."""
+        times_s, team = self._costs.times_s, self._costs.team
+        self._placements += 1
+        room_s = self._best_s - team * times_s[first]
+        placement_s, profile = self._costs.placement(times_s[last], room_s)
+        if profile is None:
+            return
+        potential_s = self._costs.potential_s(profile)
+        # The same placement serves every bound from its own latest arrival on.
+        last = int(np.searchsorted(times_s, self._costs.meeting_s(profile))) - 1
+        if potential_s < self._best_s:
+            self._best, self._best_s = profile, potential_s
+        if last >= first:
+            self._push(team * times_s[first] + placement_s, first, last, placement_s)
+
+    def _push(self, bound_s: float, first: int, last: int, placement_s: float) -> None:
+        if bound_s < self._best_s - _ROUNDING_S:
+            heapq.heappush(self._open, _Interval(float(bound_s), first, last, placement_s))
+
+
+class _Costs:
+    """The agents' costs for bounded arrivals; times count from r·T_c.
+
+    Attributes:
+        team: N.
+        times_s: the arrivals that may be the communication time, ascending; the first is the
+            earliest time at which everybody can be anywhere.
+    """
+
+    def __init__(self, problem: RoundProblem) -> None:
+        self.team = len(problem.candidates)
+        self._problem = problem
+        self._opens_s, _ = problem.window_s
+        self._since_s = [own.arrival_s - self._opens_s for own in problem.candidates]
+        self._gain_s = [
+            own.extra_s - np.where(np.isfinite(since_s), since_s, 0.0)
+            for own, since_s in zip(problem.candidates, self._since_s, strict=True)
+        ]
+        self._neighbourhood = Neighbourhood.within(problem.locations_m, problem.range_m)
+        earliest_s = max(0.0, *(float(since_s.min()) for since_s in self._since_s))
+        arrivals_s = np.concatenate([since_s.ravel() for since_s in self._since_s])
+        later_s = arrivals_s[np.isfinite(arrivals_s) & (arrivals_s > earliest_s)]
+        self.times_s = np.unique(np.append(later_s, earliest_s))
+
+    def placement(self, latest_s: float, room_s: float) -> tuple[float, Profile | None]:
+        """Return P(τ) for a bound τ and what attains it, if P(τ) is less than ``room_s``."""
+        costs_s = np.array(
+            [
+                np.where(since_s <= latest_s, gain_s, np.inf).min(axis=0)
+                for since_s, gain_s in zip(self._since_s, self._gain_s, strict=True)
+            ]
+        )
+        least_s = costs_s.min(axis=1)
+        if not np.isfinite(least_s).all():
+            return np.inf, None
+        costs_s[costs_s - least_s[:, None] >= room_s - least_s.sum()] = np.inf
+        kept = np.flatnonzero(np.isfinite(costs_s).any(axis=0))
+        if not len(kept):
+            return np.inf, None
+        placement = cheapest_placement(costs_s[:, kept], self._neighbourhood.among(kept))
+        if not placement.cost < room_s:
+            return np.inf, None
+        locations = tuple(kept[list(placement.locations)].tolist())
+        return placement.cost, Profile(locations, self._best_candidates(locations, latest_s))
+
+    def potential_s(self, profile: Profile) -> float:
+        """Return Φ."""
+        return potential(self._problem.strategies(profile), self._opens_s)
+
+    def meeting_s(self, profile: Profile) -> float:
+        """Return t_c."""
+        return max(0.0, *(float(since_s[h, z]) for since_s, h, z in self._chosen(profile)))
+
+    def _chosen(self, profile: Profile) -> Iterator[tuple[NDArray[np.float64], int, int]]:
+        return zip(self._since_s, profile.candidate, profile.location, strict=True)
+
+    def _best_candidates(self, locations: tuple[int, ...], latest_s: float) -> tuple[int, ...]:
+        return tuple(
+            int(np.argmin(np.where(since_s[:, z] <= latest_s, gain_s[:, z], np.inf)))
+            for since_s, gain_s, z in zip(self._since_s, self._gain_s, locations, strict=True)
+        )
