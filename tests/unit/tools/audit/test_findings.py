@@ -320,6 +320,33 @@ def test_a_violation_says_who_when_and_by_what() -> None:
     )
 
 
+AUTOMATON = """HOA: v1 Start: 0 AP: 2 "left" "pick" Acceptance: 1 Inf(0) --BODY--
+State: 0 {} --END--"""
+
+
+@pytest.mark.parametrize(
+    ("edges", "verdict", "settled_s", "satisfied"),
+    [
+        ("[!0] 0 [0&!1] 0 [0&1] 0 {0}", "kept", None, 2),
+        ("[!0] 0 [0&!1] 0 {0} [0&1] 0", "pending", None, 0),
+        ("[!0] 0 {0} [0] 1 {0} State: 1 [!0] 1 {0}", "violated", 15.0, 1),
+        ("[!0] 0 [0] 1 {0} State: 1 [t] 1 {0}", "fulfilled", 5.0, 2),
+        ("[t] 0 [0] 1 State: 1 [0] 1 {0}", None, None, None),
+    ],
+)
+def test_an_automaton_is_followed(
+    edges: str, verdict: str | None, settled_s: float | None, satisfied: int | None
+) -> None:
+    """A given automaton has the same verdicts, and none where several runs leave it open."""
+    scenario = hand_made_scenario()
+    update = {"task": None, "automaton": AUTOMATON.format(edges)}
+    agent = scenario.agents["west"].model_copy(update=update)
+    changed = scenario.model_copy(update={"agents": {**scenario.agents, "west": agent}})
+    own = audit_run(changed, RecordedRun(without_claims(), AGENTS, 25 * S, {}, "")).tasks[1]
+    assert (own.verdict, own.satisfied) == (verdict, satisfied)
+    assert own.settled_s == pytest.approx(settled_s)
+
+
 def test_only_what_the_events_say_is_judged() -> None:
     """Without west's steps its task is pending, though it stood at its region."""
     records = without_claims()

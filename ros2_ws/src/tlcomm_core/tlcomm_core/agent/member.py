@@ -18,7 +18,6 @@ from tlcomm_core.agent.radio import Radio
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.geometry import Pose
-from tlcomm_core.ltl import parse
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.planning.synthesis import plan_task
@@ -28,6 +27,7 @@ from tlcomm_core.protocol.messages import Message
 from tlcomm_core.protocol.negotiation import Phase
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.scenario.site import Site
+from tlcomm_core.scenario.task import task_of
 from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import TravelTimes
@@ -121,10 +121,12 @@ def local_plan(
         site.regions_at,
         site.action_durations(name),
     )
+    agent = site.scenario.agents[name]
     try:
-        return plan_task(parse(site.scenario.agents[name].task), system, objective)
+        return plan_task(task_of(agent), system, objective)
     except PlanningError as error:
-        raise type(error)(f"agents.{name}.task: {error}") from error
+        field = "task" if agent.automaton is None else "automaton"
+        raise type(error)(f"agents.{name}.{field}: {error}") from error
 
 
 def check_tasks(site: Site) -> None:

@@ -1,6 +1,6 @@
 """From a task to the optimal local plan, or to the reason why there is none.
 
-- ``plan_task``   the plan for a formula
+- ``plan_task``   the plan for a formula, or for an automaton
 """
 
 from collections.abc import Callable, Sequence
@@ -18,7 +18,7 @@ __all__ = ["plan_task"]
 
 
 def plan_task(
-    formula: Formula, system: TransitionSystem, objective: Objective = SUFFIX_FIRST
+    task: Formula | BuchiAutomaton, system: TransitionSystem, objective: Objective = SUFFIX_FIRST
 ) -> LocalPlan:
     """Return the optimal local plan of an agent for its task.
 
@@ -27,22 +27,22 @@ def plan_task(
     so its satisfying step needn't be the last.
 
     Args:
-        formula: the task.
+        task: the formula; or an automaton, which is used as it is.
         system: the agent's transition system.
         objective: what is to be least.
 
     Raises:
-        UnsatisfiableTaskError: no word satisfies the formula.
+        UnsatisfiableTaskError: no word satisfies the task.
         UnreachableTaskError: some word does, but none of a run of the system.
 
     Source: Section IV-A.
     Cost: see ``translate``, ``product.build`` and ``optimal_lasso``.
     """
-    automaton = translate(formula)
+    automaton = task if isinstance(task, BuchiAutomaton) else translate(task)
     product = products.build(system, automaton)
     lasso = optimal_lasso(product, objective)
     if lasso is None:
-        raise _failure(formula, automaton, system)
+        raise _failure(task, automaton, system)
     prefix = _steps(lasso.prefix, product, system, automaton)
     suffix = _steps(lasso.suffix, product, system, automaton)
     first = next(place for place, step in enumerate(suffix) if step.satisfies)
@@ -96,24 +96,25 @@ def _total_m(edges: Sequence[int], product: Product, system: TransitionSystem) -
 
 
 def _failure(
-    formula: Formula, automaton: BuchiAutomaton, system: TransitionSystem
+    task: Formula | BuchiAutomaton, automaton: BuchiAutomaton, system: TransitionSystem
 ) -> PlanningError:
     """Return the error that says why no run is accepting."""
+    named = f"task {str(task)!r}" if isinstance(task, Formula) else "the automaton"
     if automaton.is_empty():
-        return UnsatisfiableTaskError(f"task {str(formula)!r} contradicts itself: no word fits it")
+        return UnsatisfiableTaskError(f"{named} contradicts itself: no word fits it")
     possible = frozenset[str]().union(*system.labels)
     never = [atom for atom in automaton.atoms if atom not in possible]
     if _without(automaton, never).is_empty():
         each = [atom for atom in never if _without(automaton, [atom]).is_empty()]
         names = ", ".join(repr(atom) for atom in each or never)
         return UnreachableTaskError(
-            f"task {str(formula)!r} can't be done from the start: never true there: {names}"
+            f"{named} can't be done from the start: never true there: {names}"
         )
     if _limited_to(automaton, system.labels).is_empty():
         reason = "what it wants true or false together never is, in any region that can be reached"
     else:
         reason = "no way through the regions visits them in an order that it allows"
-    return UnreachableTaskError(f"task {str(formula)!r} can't be done from the start: {reason}")
+    return UnreachableTaskError(f"{named} can't be done from the start: {reason}")
 
 
 def _without(automaton: BuchiAutomaton, never: Sequence[str]) -> BuchiAutomaton:

@@ -12,12 +12,14 @@ from typing import Final
 import numpy as np
 from scipy.sparse.csgraph import connected_components
 
-from tlcomm_core.errors import FormulaError
+from tlcomm_core.errors import FormulaError, InputError
+from tlcomm_core.ltl.automaton import BuchiAutomaton
 from tlcomm_core.ltl.formula import atoms
 from tlcomm_core.ltl.parser import explain, parse
 from tlcomm_core.scenario.document import Place
-from tlcomm_core.scenario.model import Scenario, Workspace
+from tlcomm_core.scenario.model import Agent, Scenario, Workspace
 from tlcomm_core.scenario.site import grid_of, region_location
+from tlcomm_core.scenario.task import read_automaton, task_of
 from tlcomm_core.workspace.grid import Grid
 
 __all__ = ["MAX_CELLS", "Finding", "check", "did_you_mean"]
@@ -157,15 +159,43 @@ def _starts(scenario: Scenario, grid: Grid) -> Iterator[Finding]:
 
 def _tasks(scenario: Scenario) -> Iterator[Finding]:
     for name, agent in scenario.agents.items():
-        place = ("agents", name, "task")
         known = {*scenario.workspace.regions, *scenario.actions_of(name)}
-        try:
-            unknown = sorted({*atoms(parse(agent.task))} - known)
-        except FormulaError as error:
-            yield Finding(place, explain(error))
-            continue
-        for atom in unknown:
-            yield Finding(place, f"unknown region or action {atom!r}; {did_you_mean(atom, known)}")
+        if (agent.task is None) == (agent.automaton is None):
+            found = "missing" if agent.task is None else "given beside an automaton"
+            what = f"{found}; expected either a formula or, as automaton, a file in HOA v1"
+            yield Finding(("agents", name, "task"), what)
+        elif agent.task is not None:
+            for what in _formula_flaws(agent.task, known):
+                yield Finding(("agents", name, "task"), what)
+        elif agent.automaton is not None:
+            for what in _automaton_flaws(agent.automaton, known):
+                yield Finding(("agents", name, "automaton"), what)
+
+
+def _formula_flaws(text: str, known: Collection[str]) -> Iterator[str]:
+    try:
+        formula = parse(text)
+    except FormulaError as error:
+        yield explain(error)
+        return
+    for atom in sorted({*atoms(formula)}.difference(known)):
+        yield _unknown(atom, known)
+
+
+def _automaton_flaws(text: str, known: Collection[str]) -> Iterator[str]:
+    try:
+        automaton = read_automaton(text)
+    except InputError as error:
+        yield str(error)
+        return
+    lines = text.splitlines()
+    for atom in sorted({*automaton.atoms}.difference(known)):
+        line = next((n for n, line in enumerate(lines, start=1) if f'"{atom}"' in line), 1)
+        yield f"automaton, line {line}: {_unknown(atom, known)}"
+
+
+def _unknown(atom: str, known: Collection[str]) -> str:
+    return f"unknown region or action {atom!r}; {did_you_mean(atom, known)}"
 
 
 def _connectivity(scenario: Scenario) -> Iterator[Finding]:
@@ -189,13 +219,18 @@ def _reachability(scenario: Scenario, grid: Grid) -> Iterator[Finding]:
     home = {name: region_location(grid, region) for name, region in regions.items()}
     for name, agent in scenario.agents.items():
         start = grid.location_at(*agent.start[:2])
-        for region in sorted(home.keys() & atoms(parse(agent.task))):
+        for region in sorted(home.keys() & _atoms(agent)):
             if grid.components[start] != grid.components[home[region]]:
                 yield Finding(
-                    ("agents", name, "task"),
+                    ("agents", name, "task" if agent.automaton is None else "automaton"),
                     f"region {region!r} can't be reached from the start"
                     f" {_point(agent.start[:2])}: obstacles close every way",
                 )
+
+
+def _atoms(agent: Agent) -> frozenset[str]:
+    task = task_of(agent)
+    return frozenset(task.atoms if isinstance(task, BuchiAutomaton) else atoms(task))
 
 
 def _covered(grid: Grid, x_m: float, y_m: float) -> bool:

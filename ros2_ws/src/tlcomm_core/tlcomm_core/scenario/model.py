@@ -95,10 +95,14 @@ class Noise(_Section):
 
 
 class Agent(_Section):
-    """Where an agent starts (x, y, yaw), its task, and what it has different from the team."""
+    """Where an agent starts (x, y, yaw), its task, and what it has different from the team.
+
+    The task is a formula, or the text of an automaton in HOA v1.
+    """
 
     start: tuple[Number, Number, Number]
-    task: str
+    task: str | None = None
+    automaton: str | None = None
     motion: DriveOverride = DriveOverride()
     actions: dict[Name, NotNegative] = {}
 

@@ -2,18 +2,19 @@
 
 ``Progress``   the outcome
 ``WORDS``      the four verdicts in words
-``follow``     a formula's progress along a word
+``follow``     a task's progress along a word
 
 The verdict is the runtime monitor's. So are the passes through accepting transitions; for □◇φ the
 audit has a count of its own, in ``formula``.
 """
 
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Final
 
 from tlcomm_core.errors import IntractableTaskError
-from tlcomm_core.ltl import Monitor, RunMonitor, Verdict, parse, translate
+from tlcomm_core.ltl import BuchiAutomaton, Formula, Monitor, RunMonitor, Verdict, translate
 from tlcomm_tools.audit.words import Letter
 
 __all__ = ["WORDS", "Progress", "follow"]
@@ -48,15 +49,14 @@ class Progress:
         return self.settled if self.verdict == WORDS[Verdict.FALSE] else None
 
 
-def follow(task: str, word: Sequence[Letter]) -> Progress:
-    """Return a formula's progress along a word."""
-    formula = parse(task)
-    runs = RunMonitor(translate(formula))
-    try:
-        watching: Monitor | RunMonitor = Monitor(formula)
-    except IntractableTaskError:
-        # It is the negation that has no small automaton: the task has a plan.
-        watching = runs
+def follow(task: Formula | BuchiAutomaton, word: Sequence[Letter]) -> Progress:
+    """Return the progress of a formula, or of an automaton given instead, along a word."""
+    runs = RunMonitor(task if isinstance(task, BuchiAutomaton) else translate(task))
+    watching: Monitor | RunMonitor = runs
+    if isinstance(task, Formula):
+        # Where it is the negation that has no small automaton, the runs are all there is.
+        with suppress(IntractableTaskError):
+            watching = Monitor(task)
     _read(word, {id(own): own for own in (runs, watching)}.values())
     verdict = watching.verdict
     return Progress(

@@ -14,6 +14,7 @@ import numpy as np
 from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.records import TaskRecord
 from tlcomm_core.scenario.model import Scenario
+from tlcomm_core.scenario.task import task_of
 from tlcomm_tools.audit.formula import Tree, count_fulfilled, read_formula, recurring_part
 from tlcomm_tools.audit.progress import Progress, follow
 from tlcomm_tools.audit.tracks import Track
@@ -74,11 +75,12 @@ def audit_task(
         for record in events
         if record.event.kind is TaskEventKind.TASK_SATISFIED
     ]
-    task = scenario.agents[agent].task
+    own = scenario.agents[agent]
     word = read_word(scenario, agent, steps, track)
     # What holds before the first letter, or where the agent started, needs no step.
     times_s = [0.0, 0.0, *(record.stamp_ns * 1e-9 for record in steps)]
-    progress, part = follow(task, word), recurring_part(read_formula(task))
+    progress = follow(task_of(own), word)
+    part = None if own.task is None else recurring_part(read_formula(own.task))
     ends = progress.passes if part is None else count_fulfilled(part, word)
     # A step claims what it does; the start claims nothing.
     satisfied_s = None if ends is None else [times_s[end + 1] for end in ends if end]

@@ -104,7 +104,7 @@ def _format_plan(name: str, plan: Mapping[str, Any]) -> str:
     ]
     header = ("step", "part", "region", "action", "at/m", "stays/s", "task")
     return (
-        f"{name}: {plan['task']}\n"
+        f"{name}: {plan['task'] or 'the given automaton'}\n"
         f"  prefix {plan['prefix_s']:.2f} s and {plan['prefix_m']:.2f} m, "
         f"suffix {plan['suffix_s']:.2f} s and {plan['suffix_m']:.2f} m\n"
         f"  satisfied first at {plan['first_s']:.2f} s; "
