@@ -2,6 +2,7 @@
 
 - ``Objective``      what is to be least
 - ``SUFFIX_FIRST``   the paper's
+- ``Key``            a lasso's value by an objective
 - ``Lasso``          edges of the prefix and of the suffix
 - ``optimal_lasso``  the best one, exactly
 """
@@ -17,7 +18,7 @@ from scipy.sparse.csgraph import connected_components
 from tlcomm_core.planning.product import Product
 from tlcomm_core.planning.shortest_paths import Arcs, Bools, Floats, Graph, Ints, ShortestPaths
 
-__all__ = ["SUFFIX_FIRST", "Lasso", "Objective", "optimal_lasso"]
+__all__ = ["SUFFIX_FIRST", "Key", "Lasso", "Objective", "optimal_lasso"]
 
 Key = tuple[Fraction | int, ...]
 

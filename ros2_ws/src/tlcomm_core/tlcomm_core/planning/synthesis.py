@@ -10,6 +10,7 @@ from tlcomm_core.errors import PlanningError, UnreachableTaskError, Unsatisfiabl
 from tlcomm_core.ltl import BuchiAutomaton, Cube, Formula, Guard, translate
 from tlcomm_core.planning import product as products
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective, optimal_lasso
+from tlcomm_core.planning.on_the_fly import essential_part, is_large
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
 from tlcomm_core.planning.product import Product
 from tlcomm_core.planning.transition_system import TransitionSystem
@@ -35,25 +36,29 @@ def plan_task(
         UnsatisfiableTaskError: no word satisfies the task.
         UnreachableTaskError: some word does, but none of a run of the system.
 
+        IntractableTaskError: see ``translate`` and ``essential_part``.
+
     Source: Section IV-A.
-    Cost: see ``translate``, ``product.build`` and ``optimal_lasso``.
+    Cost: see ``translate``, ``product.build`` and ``optimal_lasso``; for products that may have
+        more than ``MOST_HELD`` edges ``essential_part`` comes first.
     """
     automaton = task if isinstance(task, BuchiAutomaton) else translate(task)
-    product = products.build(system, automaton)
+    part = essential_part(system, automaton, objective) if is_large(system, automaton) else system
+    product = products.build(part, automaton)
     lasso = optimal_lasso(product, objective)
     if lasso is None:
         raise _failure(task, automaton, system)
-    prefix = _steps(lasso.prefix, product, system, automaton)
-    suffix = _steps(lasso.suffix, product, system, automaton)
+    prefix = _steps(lasso.prefix, product, part, automaton)
+    suffix = _steps(lasso.suffix, product, part, automaton)
     first = next(place for place, step in enumerate(suffix) if step.satisfies)
     return LocalPlan(
         prefix=prefix,
         suffix=suffix,
-        prefix_s=_total_s(lasso.prefix, product, system),
-        suffix_s=_total_s(lasso.suffix, product, system),
-        first_s=_total_s((*lasso.prefix, *lasso.suffix[: first + 1]), product, system),
-        prefix_m=_total_m(lasso.prefix, product, system),
-        suffix_m=_total_m(lasso.suffix, product, system),
+        prefix_s=_total_s(lasso.prefix, product, part),
+        suffix_s=_total_s(lasso.suffix, product, part),
+        first_s=_total_s((*lasso.prefix, *lasso.suffix[: first + 1]), product, part),
+        prefix_m=_total_m(lasso.prefix, product, part),
+        suffix_m=_total_m(lasso.suffix, product, part),
         initial_label=system.labels[system.initial_label],
     )
 
