@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from support.hand_made_run import hand_made_records, write_bag
+from support.hand_made_run import hand_made_records, hand_made_scenario, write_bag
 from tlcomm_core.agent.actions import TaskEventKind
+from tlcomm_core.scenario.loader import dumps
 from tlcomm_tools.cli import VERBS, main
 
 ROOT = Path(__file__).parents[3]
@@ -345,11 +346,24 @@ def test_check_a_bad_bag(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> 
     assert (status, len(json.loads(out)["verdict"])) == (1, 2)
 
 
+def test_check_tells_a_violated_task(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Agent and time are in the table, in the verdict and in JSON; the status is 1."""
+    write_bag(tmp_path / "bag", hand_made_records())
+    text = dumps(hand_made_scenario())
+    (tmp_path / "strict.yaml").write_text(text.replace("G F (left & pick)", "G !(left & pick)"))
+    status, out, _ = run(capsys, "check", "bag", "--scenario", "strict.yaml")
+    assert status == 1
+    assert re.search(r"\n  west .* violated at 5\.000 s\n", out)
+    assert re.search(r"\n  east .* kept\n", out)
+    assert "\n  - west: task violated at 5.000 s; what was true then: {left, pick}\n" in out
+    assert max(map(len, out.splitlines())) <= 80
+    status, out, _ = run(capsys, "check", "bag", "--scenario", "strict.yaml", "--json")
+    found = json.loads(out)["tasks"]["west"]
+    assert (status, found["verdict"], found["settled_s"]) == (1, "violated", 5.0)
+
+
 def test_check_finds_the_scenario(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A bag that says nothing of its scenario is audited by the one beside it, or the one given."""
-    from support.hand_made_run import hand_made_scenario  # noqa: PLC0415
-    from tlcomm_core.scenario.loader import dumps  # noqa: PLC0415
-
     write_bag(tmp_path / "bag", hand_made_records(), with_scenario=False)
     status, _, err = run(capsys, "check", "bag")
     assert status == 2
