@@ -54,7 +54,7 @@ def essential_part(
         verification of temporal properties", 1992; searches that take all states within the
         shortest step's time at once, as in Meyer and Sanders, "Δ-stepping", 2003.
     Cost: one search over all that is reachable; then one per target of an accepting edge, cut off
-        at the best lasso so far, and left out where a bound shows that none is better. Memory: 40
+        at the best lasso so far, and left out where a bound shows that none is better. Memory: 60
         bytes per state, and the edges that are read at a time.
     """
     size = len(system.states) * automaton.state_count
