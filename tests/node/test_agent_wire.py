@@ -12,12 +12,13 @@ from tlcomm_agent import wire
 from tlcomm_core.agent.actions import Drive, TaskEvent, TaskEventKind
 from tlcomm_core.game.offer import MAX_STOPS, MemberOffer, PlannedStop
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
+from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.actions import SendMessage
 from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
 from tlcomm_core.records import RoundTiming, StrategyRecord, TaskRecord
-from tlcomm_core.world.observation import Connectivity
+from tlcomm_core.world.observation import Connectivity, Odometry
 from tlcomm_msgs import msg
-from tlcomm_sim.wire import encode_connectivity
+from tlcomm_sim.wire import encode_connectivity, encode_odometry
 from tlcomm_tools.wire import read_round_timing, read_task_event, read_team_strategy
 
 # Generated messages are opaque.
@@ -112,8 +113,10 @@ def test_timings_survive(timing: RoundTiming, stamp_ns: int) -> None:
 
 
 def test_drive() -> None:
-    """A command has its stamp, linear.x and angular.z, and nothing else."""
-    message = wire.encode_drive(Drive(0.5, -1.5), 1_500_000_000)
+    """A command has its stamp, linear.x and angular.z in the agent's own frame, nothing else."""
+    message = wire.encode_drive(Drive(0.5, -1.5), "agent_1", 1_500_000_000)
+    odometry = Odometry(0, "agent_1", Pose(0.0, 0.0, 0.0), 0.0, 0.0)
+    assert message.header.frame_id == encode_odometry(odometry).child_frame_id
     assert (message.header.stamp.sec, message.header.stamp.nanosec) == (1, 500_000_000)
     assert (message.twist.linear.x, message.twist.angular.z) == (0.5, -1.5)
     assert (message.twist.linear.y, message.twist.angular.x) == (0.0, 0.0)

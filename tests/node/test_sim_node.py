@@ -80,7 +80,7 @@ class Team:
             return
         for drive in self.commands[name] if not tick.stop else []:
             self.commanded[name] += 1
-            self.command_pubs[name].publish(encode_drive(drive, tick.time_ns))
+            self.command_pubs[name].publish(encode_drive(drive, name, tick.time_ns))
         self.commands[name] = []
         self.answer(name, tick.sequence)
 
@@ -152,7 +152,7 @@ def test_free_running_from_begin_to_end(create: Callable[..., Team]) -> None:
     """The clock runs by itself, commands are carried out, and the end is when all have met."""
     team = create(pace=2.0, until_s=600.0, rounds=0)
     team.begin()
-    team.command_pubs[NAMES[0]].publish(encode_drive(Drive(0.0, 1.0), 0))
+    team.command_pubs[NAMES[0]].publish(encode_drive(Drive(0.0, 1.0), NAMES[0], 0))
     team.until(lambda: len(team.odometry[NAMES[0]]) > 5)
     for name in NAMES:
         team.answer(name, 0, meetings_ended=1)

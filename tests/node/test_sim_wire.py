@@ -46,7 +46,7 @@ def test_yaws_are_exact_all_around() -> None:
 @given(FLOATS, FLOATS)
 def test_the_sim_reads_what_agents_command(linear_mps: float, angular_radps: float) -> None:
     """A command comes back as its velocities."""
-    message = encode_drive(Drive(linear_mps, angular_radps), 0)
+    message = encode_drive(Drive(linear_mps, angular_radps), "a", 0)
     assert wire.decode_command(message) == (linear_mps, angular_radps)
 
 

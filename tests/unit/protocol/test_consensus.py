@@ -57,7 +57,7 @@ def test_all_conclude_the_same_minimum(shape: str, count: int) -> None:
             assert {message.hop for message in said_now} == {hop}
             for agent, nodes in enumerate(adjacent):
                 for node in nodes:
-                    assert team[agent].receive(said_now[node]) is Reception.ACCEPTED
+                    assert team[agent].hear(said_now[node]) is Reception.ACCEPTED
             if hop < exchanges - 1:
                 assert all(one.conclusion is None for one in team)
                 said_now = [message for one in team if (message := one.advance())]
@@ -70,10 +70,10 @@ def test_all_conclude_the_same_minimum(shape: str, count: int) -> None:
 
 def test_no_exchange_ends_before_all_neighbours_are_heard(middle: MinimumConsensus) -> None:
     """One missing neighbour holds the exchange up."""
-    assert middle.receive(said("a", 0, 0, -1.0)) is Reception.ACCEPTED
+    assert middle.hear(said("a", 0, 0, -1.0)) is Reception.ACCEPTED
     assert not middle.has_heard_all
     assert middle.advance() is None
-    assert middle.receive(said("c", 0, 0, -3.0)) is Reception.ACCEPTED
+    assert middle.hear(said("c", 0, 0, -3.0)) is Reception.ACCEPTED
     assert middle.has_heard_all
     message = middle.advance()
     assert message == said("b", 0, 1, -3.0, by="c")
@@ -82,11 +82,11 @@ def test_no_exchange_ends_before_all_neighbours_are_heard(middle: MinimumConsens
 def test_it_says_whose_word_it_waits_for(middle: MinimumConsensus) -> None:
     """A neighbour that is missing in the exchange under way, the first by name."""
     assert middle.awaited == "a"
-    middle.receive(said("a", 0, 1, -1.0))
+    middle.hear(said("a", 0, 1, -1.0))
     assert middle.awaited == "a"
-    middle.receive(said("a", 0, 0, -1.0))
+    middle.hear(said("a", 0, 0, -1.0))
     assert middle.awaited == "c"
-    middle.receive(said("c", 0, 0, -3.0))
+    middle.hear(said("c", 0, 0, -3.0))
     assert middle.awaited is None
     middle.advance()
     assert middle.awaited == "c"
@@ -94,11 +94,11 @@ def test_it_says_whose_word_it_waits_for(middle: MinimumConsensus) -> None:
 
 def test_a_message_one_step_ahead_is_kept(middle: MinimumConsensus) -> None:
     """A neighbour that is one exchange ahead needn't repeat itself later."""
-    assert middle.receive(said("a", 0, 1, -1.0)) is Reception.ACCEPTED
-    assert middle.receive(said("a", 0, 0, -1.0)) is Reception.ACCEPTED
-    assert middle.receive(said("c", 0, 0, 0.0)) is Reception.ACCEPTED
+    assert middle.hear(said("a", 0, 1, -1.0)) is Reception.ACCEPTED
+    assert middle.hear(said("a", 0, 0, -1.0)) is Reception.ACCEPTED
+    assert middle.hear(said("c", 0, 0, 0.0)) is Reception.ACCEPTED
     assert middle.advance() is not None
-    assert middle.receive(said("c", 0, 1, -4.0)) is Reception.ACCEPTED
+    assert middle.hear(said("c", 0, 1, -4.0)) is Reception.ACCEPTED
     assert middle.advance() == said("b", 0, 2, -4.0, by="c")
 
 
@@ -106,8 +106,8 @@ def test_the_last_two_messages_are_repeated(middle: MinimumConsensus) -> None:
     """A neighbour one step behind may need the last but one, and none before that."""
     assert middle.unsuperseded == (said("b", 0, 0, -2.0),)
     for hop in range(3):
-        middle.receive(said("a", 0, hop, -2.5, by="a"))
-        middle.receive(said("c", 0, hop, -1.0, by="c"))
+        middle.hear(said("a", 0, hop, -2.5, by="a"))
+        middle.hear(said("c", 0, hop, -1.0, by="c"))
         middle.advance()
     assert [message.hop for message in middle.unsuperseded] == [1, 2]
     middle.begin(0.0, strategy_of("b"))
@@ -137,22 +137,22 @@ _IGNORED = {
 @pytest.mark.parametrize("name", _IGNORED)
 def test_what_changes_nothing_is_named(middle: MinimumConsensus, name: str) -> None:
     """Late, early, repeated, contradictory, malformed and unneeded messages leave no trace."""
-    middle.receive(said("a", 0, 0, -1.0))
-    middle.receive(said("c", 0, 0, -1.0))
+    middle.hear(said("a", 0, 0, -1.0))
+    middle.hear(said("c", 0, 0, -1.0))
     middle.advance()
-    middle.receive(said("a", 0, 1, -1.0))
+    middle.hear(said("a", 0, 1, -1.0))
     before = snapshot(middle)
     message, reception = _IGNORED[name]
-    assert middle.receive(message) is reception
+    assert middle.hear(message) is reception
     assert snapshot(middle) == before
 
 
 def test_an_own_response_that_returns_is_accepted(middle: MinimumConsensus) -> None:
     """The smallest change may be one's own, told back by a neighbour."""
-    middle.receive(said("a", 0, 0, -1.0))
-    middle.receive(said("c", 0, 0, -1.0))
+    middle.hear(said("a", 0, 0, -1.0))
+    middle.hear(said("c", 0, 0, -1.0))
     middle.advance()
-    assert middle.receive(said("c", 0, 1, -2.0, by="b")) is Reception.ACCEPTED
+    assert middle.hear(said("c", 0, 1, -2.0, by="b")) is Reception.ACCEPTED
 
 
 def test_an_iteration_begins_after_the_last_exchange_only(middle: MinimumConsensus) -> None:

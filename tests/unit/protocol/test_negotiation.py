@@ -9,7 +9,7 @@ from support.fake_network import FakeNetwork
 from support.meetings import Meeting, make_offers, make_team, sample_meeting
 from tlcomm_core.errors import InfeasibleRoundError
 from tlcomm_core.game.problem import Candidates
-from tlcomm_core.protocol.actions import CountIgnored, HoldStrategy, SendMessage
+from tlcomm_core.protocol.actions import Action, CountIgnored, HoldStrategy, SendMessage
 from tlcomm_core.protocol.messages import BestResponse, Message, PlanOffer
 from tlcomm_core.protocol.negotiation import Negotiation, Phase, _meeting_graph
 
@@ -135,14 +135,21 @@ def test_what_was_kept_in_vain_is_counted(meeting: Meeting) -> None:
     assert not any(isinstance(a, CountIgnored) for a in negotiation.proceed(START_S + 1.0))
 
 
-def test_what_is_kept_is_bounded(meeting: Meeting) -> None:
-    """Any number of messages of a later phase takes a bounded place."""
+def test_what_is_kept_is_bounded_for_each_sender(meeting: Meeting) -> None:
+    """One member's messages of a later phase take its own place, counted beyond, and no other's."""
     negotiation = negotiation_of(meeting)
-    strategy = meeting.problem.strategy(1, 0, 0)
-    for iteration in range(100):
-        message = BestResponse("agent_01", meeting.round, iteration, 0, "agent_01", 0.0, strategy)
-        negotiation.hear(message)
-    assert len(negotiation._kept) == 4 * len(meeting.offers)
+
+    def counted(sender: int, iteration: int) -> tuple[Action, ...]:
+        name = meeting.offers[sender].agent
+        strategy = meeting.problem.strategy(sender, 0, 0)
+        return negotiation.hear(
+            BestResponse(name, meeting.round, iteration, 0, name, 0.0, strategy)
+        )
+
+    heard = [counted(1, iteration) for iteration in range(100)]
+    assert heard == [()] * 4 + [(CountIgnored("overflowing"),)] * 96
+    assert counted(1, 0) == (CountIgnored("duplicate"),)
+    assert counted(2, 0) == ()
 
 
 @pytest.mark.parametrize(

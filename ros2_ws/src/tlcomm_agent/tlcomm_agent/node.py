@@ -59,6 +59,7 @@ class _Hearing(ReentrantCallbackGroup):
         self._attended = attended
 
     def can_execute(self, entity: object) -> bool:  # noqa: ARG002 (the group stands for it)
+        """Tell whether the other's messages are to be taken now."""
         return self._other in self._attended()
 
 
@@ -130,13 +131,7 @@ class AgentNode(Node):
         self._attended: Container[str] = self.config.others if self._is_lockstep else ()
         self._create_publishers()
         self._create_subscriptions()
-        self._steady: Final = Clock(clock_type=ClockType.STEADY_TIME)
-        self._ready_timer: Final = self.create_timer(
-            _READY_PERIOD_S, self._say_ready, clock=self._steady
-        )
-        self._news: Final = self.create_guard_condition(self._step_freely)
-        if not self._is_lockstep:
-            self.create_timer(CONTROL_PERIOD_S, self._step_freely)
+        self._create_occasions()
 
     def _declared(self, name: str) -> object:
         defaults = {"scenario": "", "pace": "lockstep", "recorder": False}
@@ -175,6 +170,13 @@ class AgentNode(Node):
             for topic in wire.TEAM_TYPES
         ]
         self._own_subscriptions = (*own, *team)
+
+    def _create_occasions(self) -> None:
+        self._steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._ready_timer = self.create_timer(_READY_PERIOD_S, self._say_ready, clock=self._steady)
+        self._news = self.create_guard_condition(self._step_freely)
+        if not self._is_lockstep:
+            self.create_timer(CONTROL_PERIOD_S, self._step_freely)
 
     def _subscribe_team(self, other: str, topic: str) -> Any:  # noqa: ANN401 (rclpy's are opaque)
         kind = wire.TEAM_TYPES[topic]
@@ -230,7 +232,7 @@ class AgentNode(Node):
         except wire.WireError as error:
             self._ignore(f"{other}: {error}")
             return 0
-        except Exception as error:  # noqa: BLE001 (bytes from outside break rclpy in its own ways)
+        except RuntimeError as error:  # rclpy's RMWError, which has no public name
             self._ignore(f"{other}: not a {kind.__name__}: {error}")
             return 0
         if message.sender != other:

@@ -72,7 +72,6 @@ _TEAM_TOPICS: Final[Mapping[type[Message], str]] = MappingProxyType(
     {PlanOffer: "plan_offer", BestResponse: "best_response", Confirmation: "confirmation"}
 )
 _FRAME: Final = "map"
-_BASE_FRAME: Final = "base_link"
 _MAX_AGENTS: Final = 1000
 _MAX_NAME: Final = 255
 
@@ -89,7 +88,7 @@ def encode_action(action: PublishedAction, agent: str, stamp_ns: int) -> tuple[s
     """Return the topic and the message that an action is, when ``agent`` takes it."""
     match action:
         case Drive():
-            return "cmd_vel", encode_drive(action, stamp_ns)
+            return "cmd_vel", encode_drive(action, agent, stamp_ns)
         case SendMessage(message):
             return _TEAM_TOPICS[type(message)], encode_message(message, stamp_ns)
         case ReportTask(event):
@@ -180,9 +179,9 @@ def decode_message(message: _RosMessage) -> tuple[Message, int]:
             raise WireError(f"type {type(message).__name__!r} isn't one that agents talk in")
 
 
-def encode_drive(drive: Drive, stamp_ns: int) -> TwistStamped:
-    """Return a velocity command."""
-    message = TwistStamped(header=_header(stamp_ns, _BASE_FRAME))
+def encode_drive(drive: Drive, agent: str, stamp_ns: int) -> TwistStamped:
+    """Return a velocity command, in the frame that moves in the agent's odometry."""
+    message = TwistStamped(header=_header(stamp_ns, f"{agent}/base_link"))
     message.twist.linear.x = drive.linear_mps
     message.twist.angular.z = drive.angular_radps
     return message

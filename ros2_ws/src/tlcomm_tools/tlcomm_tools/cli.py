@@ -31,13 +31,14 @@ VERBS: Final = {
     "bench": "measure planning, solving and simulating",
 }
 _HELP: Final = ("-h", "--help")
-_TOLD_BY_FILE: Final = {errno.ENOSPC, errno.EDQUOT, errno.EIO}
+_BREAKING: Final = {errno.ENOSPC, errno.EDQUOT, errno.EIO}
 
 
 class _Parser(argparse.ArgumentParser):
     """A parser whose errors are ``InputError``s."""
 
     def error(self, message: str) -> NoReturn:
+        """Raise the complaint instead of ending the process."""
         raise InputError(f"{message} (see '{self.prog} --help')")
 
 
@@ -52,7 +53,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     arguments = list(sys.argv[1:] if argv is None else argv)
     try:
-        return _dispatch(arguments)
+        status = _dispatch(arguments)
+        # Here a full disk or a reader that has gone is still an error of ours to tell.
+        sys.stdout.flush()
     except (InputError, PlanningError) as error:
         return _report(str(error), Status.BAD_INPUT)
     except InfeasibleRoundError as error:
@@ -60,13 +63,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return _report("interrupted", Status.INTERRUPTED)
     except BrokenPipeError:
-        # Nobody reads on, ``head`` for instance: Python would complain once more at its exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # Nobody reads on, ``head`` for instance.
+        _discard_output()
         return Status.FINE
     except OSError as error:
-        status = Status.BROKEN if error.errno in _TOLD_BY_FILE else Status.BAD_INPUT
-        place = "while writing: " if error.filename is None else f"{str(error.filename)!r}: "
-        return _report(f"{place}{error.strerror}", status)
+        status = Status.BROKEN if error.errno in _BREAKING else Status.BAD_INPUT
+        if error.filename is None:
+            _discard_output()
+        place = "standard output" if error.filename is None else repr(str(error.filename))
+        return _report(f"{place}: {error.strerror}", status)
+    return status
+
+
+def _discard_output() -> None:
+    """Let what can't be printed go nowhere: Python would complain once more at its exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _dispatch(arguments: Sequence[str]) -> int:

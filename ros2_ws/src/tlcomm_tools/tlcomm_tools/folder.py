@@ -88,10 +88,17 @@ def _unused(folder: Path, name: str) -> Path:
 
 
 def _replace(path: Path, text: str) -> None:
-    """Write a file whole or not at all."""
+    """Write a file whole or not at all.
+
+    Raises:
+        OSError: it can't be written; the error names it.
+    """
     temporary = path.with_name(f".{path.name}.tmp")
     try:
         temporary.write_text(text, "utf-8")
         temporary.replace(path)
+    except OSError as error:
+        # A write, unlike an opening, doesn't say to which file.
+        raise OSError(error.errno, error.strerror, str(path)) from error
     finally:
         temporary.unlink(missing_ok=True)

@@ -67,6 +67,5 @@ def candidates(
 def _location(stop: PlannedStop, travel: TravelTimes) -> int:
     location = travel.grid.location_at(stop.x_m, stop.y_m)
     if location is None:
-        message = f"stop {stop!r} isn't in a free cell"
-        raise LocalMisuseError(message)
+        raise LocalMisuseError(f"stop {stop!r} isn't in a free cell")
     return location

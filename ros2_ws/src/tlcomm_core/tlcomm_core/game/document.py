@@ -74,8 +74,9 @@ def parse_round(document: Mapping[str, object]) -> RoundProblem:
     except ValidationError as error:
         first = error.errors()[0]
         place = ".".join(str(part) for part in first["loc"])
-        message = f"round problem: {place}: {first['msg']}, not {_short(first['input'])}"
-        raise InputError(message) from error
+        raise InputError(
+            f"round problem: {place}: {first['msg']}, not {_short(first['input'])}"
+        ) from error
     _check_names(model)
     return RoundProblem(
         round=model.round,
@@ -115,37 +116,39 @@ class _Document(_Model):
 
 def _check_names(model: _Document) -> None:
     if model.window[0] >= model.window[1]:
-        message = f"round problem: window: expected a start before the end, not {model.window!r}"
-        raise InputError(message)
+        raise InputError(
+            f"round problem: window: expected a start before the end, not {model.window!r}"
+        )
     if model.agents != sorted(set(model.agents)):
-        message = f"round problem: agents: expected distinct names, sorted, not {model.agents!r}"
-        raise InputError(message)
+        raise InputError(
+            f"round problem: agents: expected distinct names, sorted, not {model.agents!r}"
+        )
     if len(model.candidates) != len(model.agents):
-        message = (
+        raise InputError(
             f"round problem: candidates: expected one table for each of {len(model.agents)} "
             f"agents, not {len(model.candidates)!r}"
         )
-        raise InputError(message)
 
 
 def _parse_table(agent: str, table: _TableModel, places: int) -> Candidates:
     indices = table.task_index
     if indices != sorted(set(indices)):
-        message = f"round problem: candidates of {agent}: task_index isn't ascending: {indices!r}"
-        raise InputError(message)
+        raise InputError(
+            f"round problem: candidates of {agent}: task_index isn't ascending: {indices!r}"
+        )
     times = {"arrival": table.arrival, "extra": table.extra}
     for name, rows in times.items():
         widths = [len(row) for row in rows]
         if widths != [places] * len(indices):
-            message = (
+            raise InputError(
                 f"round problem: candidates of {agent}: {name}: expected {len(indices)} rows of "
                 f"{places} places, not rows of {widths!r}"
             )
-            raise InputError(message)
     arrival_s, extra_s = (_with_inf(rows, places) for rows in times.values())
     if (np.isfinite(arrival_s) != np.isfinite(extra_s)).any():
-        message = f"round problem: candidates of {agent}: arrival and extra differ in their nulls"
-        raise InputError(message)
+        raise InputError(
+            f"round problem: candidates of {agent}: arrival and extra differ in their nulls"
+        )
     return Candidates(agent, np.array(indices, dtype=np.int64), arrival_s, extra_s)
 
 

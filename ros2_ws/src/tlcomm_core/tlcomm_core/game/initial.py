@@ -47,11 +47,10 @@ def initial_profile(problem: RoundProblem) -> Profile:
     bound_s = table.lower_bounds()
     if not np.isfinite(bound_s).any():
         _, closes_s = problem.window_s
-        message = (
+        raise InfeasibleRoundError(
             f"round {problem.round}: no place that all of {', '.join(problem.agents)} "
             f"reach before {closes_s!r} s"
         )
-        raise InfeasibleRoundError(message)
     location, latest_s = _best_place(table, bound_s)
     return Profile(
         location=(location,) * len(problem.agents),
@@ -63,11 +62,10 @@ def _check_feasible(problem: RoundProblem) -> None:
     stranded = [own.agent for own in problem.candidates if not np.isfinite(own.arrival_s).any()]
     if stranded:
         opens_s, closes_s = problem.window_s
-        message = (
+        raise InfeasibleRoundError(
             f"round {problem.round}: no candidate that arrives in time for the window "
             f"[{opens_s!r}, {closes_s!r}) s for {', '.join(stranded)}"
         )
-        raise InfeasibleRoundError(message)
 
 
 def _best_place(table: "_Table", bound_s: NDArray[np.float64]) -> tuple[int, float]:

@@ -78,6 +78,7 @@ class _Letter:
         self._done: dict[_Side, _Claims] = {}
 
     def after(self, claimed: _Side) -> _Claims:
+        """Return what is left to claim of the words that follow the letter."""
         stack = [claimed]
         while stack:
             side = stack[-1]

@@ -131,6 +131,7 @@ class _Determinization:
         self._number = {self._left[0]: 0}
 
     def run(self, names: tuple[str, ...]) -> GoodPrefixAutomaton:
+        """Return the minimal automaton over these atoms, its states numbered breadth first."""
         # The list of states grows while it is walked.
         roots = [self._successor(left) for left in self._left]
         settled = self._settled(roots)

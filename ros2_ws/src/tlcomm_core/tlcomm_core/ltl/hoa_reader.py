@@ -76,6 +76,7 @@ class _HeaderReader:
         self._seen: set[str] = set()
 
     def read(self) -> _Header:
+        """Return the header; ``InputError`` points at what isn't one."""
         cursor = self._cursor
         if cursor.next.text != "HOA:":
             raise cursor.next.error("expected 'HOA:'")
@@ -180,6 +181,7 @@ class _BodyReader:
         self._named: list[tuple[int, Token]] = []
 
     def read(self) -> list[list[_Edge]]:
+        """Return the edges of each state; ``InputError`` points at what isn't a body."""
         cursor = self._cursor
         while cursor.skip("State:"):
             self._state()

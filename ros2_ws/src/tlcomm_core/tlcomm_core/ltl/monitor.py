@@ -124,6 +124,7 @@ class _Track:
         self.states = self._live & {automaton.initial}
 
     def read(self, letter: frozenset[str]) -> None:
+        """Follow all transitions that a letter takes."""
         self.states = self._live & {
             target
             for state in self.states
@@ -131,6 +132,7 @@ class _Track:
         }
 
     def continuation(self) -> LassoWord | None:
+        """Return a word that is accepted from here; None if none is."""
         return accepted_word(self._automaton, sorted(self.states))
 
 
@@ -149,5 +151,6 @@ class _Count:
         return cls(repeated) if repeated is not None and is_co_safe(repeated) else None
 
     def read(self, letter: frozenset[str]) -> None:
+        """Follow the transition that a letter takes, and count it if it accepts."""
         ((self._state, accepting),) = self._automaton.successors(self._state, letter)
         self.satisfactions += accepting

@@ -92,6 +92,7 @@ class _Token:
 
     @property
     def quoted(self) -> str:
+        """How errors show it."""
         if not self.text:
             return "the end"
         return f"'{_printable(_cut(self.text, _QUOTED_CHARACTERS))}'"
@@ -130,6 +131,7 @@ class _Parser:
         self._previous: _Token | None = None
 
     def run(self) -> Formula:
+        """Return the formula; ``FormulaError`` points at the first token that doesn't fit."""
         expect_operand = True
         for token in _tokens(self._text):
             expect_operand = self._operand(token) if expect_operand else self._infix(token)

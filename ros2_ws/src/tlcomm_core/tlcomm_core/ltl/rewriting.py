@@ -49,6 +49,7 @@ class _Rules:
         self._negations: dict[Formula, Formula] = {}
 
     def apply(self, operator: Operator, operands: list[Formula], leaf: Formula) -> Formula:
+        """Return what an operator over simplified operands becomes; ``leaf`` is the node itself."""
         match operator:
             case Operator.AND | Operator.OR:
                 return self._boolean(operator, operands[0], operands[1])

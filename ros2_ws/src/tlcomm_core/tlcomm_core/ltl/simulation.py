@@ -105,6 +105,7 @@ class _Matches:
         self._known: dict[tuple[int, int, int], int] = {}
 
     def simulating(self, state: int) -> int:
+        """Return the states, as bits, of those above that still match each move of ``state``."""
         found = self._above[state]
         for wanted, target, marks in self._rows[state]:
             rest = found & ~(1 << state)

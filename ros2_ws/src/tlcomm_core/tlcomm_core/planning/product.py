@@ -115,6 +115,7 @@ class _Builder:
         self._initial = automaton.initial
 
     def build(self) -> Product:
+        """Return the product of what is reachable, its states numbered by their keys."""
         # The initial state is number 0, so its keys are the automaton's states.
         first_label = np.array([self._system.initial_label])
         initial = np.unique(self._moves.of(np.array([self._initial]), first_label)[0])

@@ -69,7 +69,7 @@ class MinimumConsensus:
         self._response = (self.iteration + 1, change_s, strategy)
         return self._say(self._own, change_s, strategy)
 
-    def receive(self, message: BestResponse) -> Reception:
+    def hear(self, message: BestResponse) -> Reception:
         """Take a message of this round; nothing else changes until ``advance``."""
         if message.sender not in self._neighbours:
             return Reception.UNNEEDED

@@ -92,7 +92,7 @@ class Improving:
             return Reception.FOREIGN
         if strategy.agent != message.candidate or not self._is_sound(message.change_s, strategy):
             return Reception.MALFORMED
-        return self._consensus.receive(message)
+        return self._consensus.hear(message)
 
     @property
     def awaited(self) -> str | None:

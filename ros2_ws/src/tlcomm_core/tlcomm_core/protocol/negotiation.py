@@ -61,7 +61,7 @@ from tlcomm_core.world.radio import diameter, distances_m, links
 __all__ = ["Negotiation", "Phase", "Rounds"]
 
 # A neighbour is one phase ahead at the most; it says one thing per kind and exchange there.
-_KEPT_PER_MEMBER: Final = 4
+_KEPT_PER_SENDER: Final = 4
 
 
 class Phase(Enum):
@@ -207,8 +207,10 @@ class Negotiation:
         return Reception.ACCEPTED
 
     def _keep(self, message: BestResponse | Confirmation) -> Reception:
-        if message in self._kept or len(self._kept) >= _KEPT_PER_MEMBER * len(self._team.members):
+        if message in self._kept:
             return Reception.DUPLICATE
+        if sum(kept.sender == message.sender for kept in self._kept) >= _KEPT_PER_SENDER:
+            return Reception.OVERFLOWING
         self._kept.append(message)
         return Reception.ACCEPTED
 

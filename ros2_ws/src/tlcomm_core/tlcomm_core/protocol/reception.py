@@ -19,3 +19,4 @@ class Reception(Enum):
     UNNEEDED = "unneeded"
     MALFORMED = "malformed"
     CONFLICTING = "conflicting"
+    OVERFLOWING = "overflowing"

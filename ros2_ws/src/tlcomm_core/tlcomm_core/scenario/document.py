@@ -78,6 +78,7 @@ class _Builder:
     roots: list[Node] = field(default_factory=list)
 
     def take(self, event: yaml.Event) -> None:
+        """Take the parser's next event."""
         match event:
             case yaml.AliasEvent():
                 raise self.error(event, "found an alias; write the value out instead")
@@ -96,6 +97,7 @@ class _Builder:
                 pass
 
     def descend(self, event: yaml.Event, value: list[Node] | dict[str, Node]) -> None:
+        """Open a list or mapping where the next value goes."""
         if len(self.open) >= MAX_DEPTH:
             raise self.error(event, f"nested deeper than {MAX_DEPTH} levels")
         self.open.append(_Open(value, self.place_value(event, value)))
@@ -120,6 +122,7 @@ class _Builder:
         return place
 
     def new_key(self, event: yaml.Event, parent: _Open, key: Node) -> str:
+        """Return a mapping's next key, which must be text and new to it."""
         assert isinstance(parent.value, dict)
         if not isinstance(key, str):
             found = "a list or mapping" if isinstance(key, list | dict) else repr(key)
@@ -137,6 +140,7 @@ class _Builder:
     def refuse_tag(
         self, event: yaml.ScalarEvent | yaml.SequenceStartEvent | yaml.MappingStartEvent
     ) -> None:
+        """Refuse what makes YAML more than plain values."""
         if event.anchor is not None:
             raise self.error(event, f"anchor {event.anchor!r}; write the value out instead")
         if event.tag is not None:
@@ -166,6 +170,7 @@ class _Builder:
         return float(text) if _FLOAT.fullmatch(text) else text
 
     def error(self, event: yaml.Event, what: str) -> ScenarioError:
+        """Return an error with the line of an event."""
         return ScenarioError(f"{self.name}:{_line(event)}: {what}")
 
 

@@ -12,14 +12,13 @@ expected; the first in the file if there are several.
 import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, Final, TypeVar
+from typing import Any, Final, TypeVar, get_args
 
 import yaml
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from tlcomm_core.errors import ScenarioError
-from tlcomm_core.scenario import model
 from tlcomm_core.scenario.automaton_file import inline_automata
 from tlcomm_core.scenario.checks import Finding, check, did_you_mean
 from tlcomm_core.scenario.document import (
@@ -30,7 +29,7 @@ from tlcomm_core.scenario.document import (
     parse_yaml,
     place_text,
 )
-from tlcomm_core.scenario.model import Scenario
+from tlcomm_core.scenario.model import Scenario, Workspace
 from tlcomm_core.workspace.map_image import MapDescription, read_image
 
 __all__ = ["dumps", "load_scenario", "loads", "verify"]
@@ -177,7 +176,7 @@ def _validated(kind: type[_Model], document: Document, name: str) -> _Model:
         # From JSON, because strict validation takes lists as tuples only there.
         return kind.model_validate_json(json.dumps(document.root))
     except ValidationError as error:
-        findings = [_finding(details) for details in error.errors(include_url=False)]
+        findings = [_finding(details, kind) for details in error.errors(include_url=False)]
     _raise_first(findings, document, name)
     raise AssertionError(name)
 
@@ -194,7 +193,7 @@ def _raise_first(findings: list[Finding], document: Document, name: str) -> None
     raise ScenarioError(f"{name}:{line}: {place_text(first.place)}: {first.what}")
 
 
-def _finding(details: ErrorDetails) -> Finding:
+def _finding(details: ErrorDetails, kind: type[BaseModel]) -> Finding:
     """Return a validation error in the words of this project."""
     place: Place = details["loc"]
     found = _shown(details["input"])
@@ -205,7 +204,8 @@ def _finding(details: ErrorDetails) -> Finding:
         case "missing":
             return Finding(place, "missing; expected a value")
         case "extra_forbidden":
-            return Finding(place, f"unknown field; {did_you_mean(str(place[-1]), _FIELDS)}")
+            known = _fields(kind, place[:-1])
+            return Finding(place, f"unknown field; {did_you_mean(str(place[-1]), known)}")
         case "too_long" | "too_short":
             limits = details.get("ctx", {})
             bound = limits.get("max_length", limits.get("min_length"))
@@ -218,14 +218,17 @@ def _finding(details: ErrorDetails) -> Finding:
             return Finding(place, f"found {found}; {message[0].lower()}{message[1:]}")
 
 
+def _fields(root: type[BaseModel], place: Place) -> frozenset[str]:
+    """Return the fields of the section at a place."""
+    section: Any = root
+    for part in place:
+        is_model = isinstance(section, type) and issubclass(section, BaseModel)
+        # Between sections there are only mappings from names to sections.
+        section = section.model_fields[part].annotation if is_model else get_args(section)[-1]
+    named = frozenset(section.model_fields)
+    return named | {"map"} if section is Workspace else named
+
+
 def _shown(value: Any) -> str:  # noqa: ANN401
     text = repr(value)
     return text if len(text) <= _SHOWN_CHARACTERS else f"{text[:_SHOWN_CHARACTERS]}…"
-
-
-_FIELDS: Final = frozenset(
-    field
-    for section in vars(model).values()
-    if isinstance(section, type) and issubclass(section, BaseModel)
-    for field in section.model_fields
-) | {"map", *MapDescription.model_fields}

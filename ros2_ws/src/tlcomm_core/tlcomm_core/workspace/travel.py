@@ -129,6 +129,7 @@ class _Entry:
 
     @property
     def is_at_centre(self) -> bool:
+        """Whether the pose is over its cell's centre already."""
         return self.pose == self.at_centre
 
 
@@ -142,6 +143,7 @@ class _Departure:
 
     @property
     def nbytes(self) -> int:
+        """Size in bytes."""
         return self.tree.nbytes + self.reach.time_s.nbytes + self.reach.heading.nbytes
 
 

@@ -49,11 +49,14 @@ def read_formula(text: str) -> Tree:
 
 
 class _Reader:
+    """Reads a formula by recursive descent, a method per kind of operator."""
+
     def __init__(self, tokens: Sequence[str], text: str) -> None:
         self.tokens = list(reversed(tokens))
         self._text = text
 
     def binary(self, level: int) -> Tree:
+        """Read operands joined by the binary operators from this level of precedence on."""
         if level == len(_LEVELS):
             return self.unary()
         left = self.binary(level + 1)
@@ -63,6 +66,7 @@ class _Reader:
         return left
 
     def unary(self) -> Tree:
+        """Read an operand with the unary operators in front of it."""
         if not self.tokens:
             raise InputError(f"formula {self._text!r}: it ends too early")
         word = self.tokens.pop()

@@ -90,16 +90,14 @@ def read_container(path: Path, wanted: Callable[[Channel], bool]) -> Container:
         size = path.stat().st_size
         with path.open("rb") as stream:
             if stream.read(len(MAGIC)) != MAGIC:
-                msg = f"{str(path)!r} is no MCAP file"
-                raise InputError(msg)
+                raise InputError(f"{str(path)!r} is no MCAP file")
             parser = _Parser(wanted)
             try:
                 parser.read(stream, size)
             except _DamageError as error:
                 parser.container.damage = str(error)
     except OSError as error:
-        msg = f"can't read {str(path)!r}: {error.strerror}"
-        raise InputError(msg) from error
+        raise InputError(f"can't read {str(path)!r}: {error.strerror}") from error
     return parser.container
 
 
@@ -124,10 +122,8 @@ class _Parser:
                 RuntimeError,
                 zstandard.ZstdError,
             ) as error:
-                msg = f"a damaged record: {error}"
-                raise _DamageError(msg) from error
-        msg = "the file has no end"
-        raise _DamageError(msg)
+                raise _DamageError(f"a damaged record: {error}") from error
+        raise _DamageError("the file has no end")
 
     def _take(self, opcode: int, content: bytes) -> None:
         if opcode == Opcode.CHUNK:
@@ -147,8 +143,7 @@ class _Parser:
         compression, offset = _read_string(content, _CHUNK.size)
         data = _decompress(content[offset + 8 :], compression, size)
         if checksum and crc32(data) != checksum:
-            msg = "a chunk's checksum doesn't match"
-            raise ValueError(msg)
+            raise ValueError("a chunk's checksum doesn't match")
         offset, unpack = 0, _RECORD.unpack_from
         while offset < len(data):
             opcode, length = unpack(data, offset)
@@ -201,8 +196,7 @@ def _read_string(content: bytes, offset: int) -> tuple[str, int]:
     (length,) = struct.unpack_from("<I", content, offset)
     end = offset + 4 + length
     if end > len(content):
-        msg = f"a string of {length} bytes in a record of {len(content)}"
-        raise ValueError(msg)
+        raise ValueError(f"a string of {length} bytes in a record of {len(content)}")
     return content[offset + 4 : end].decode(), end
 
 
@@ -224,6 +218,5 @@ def _decompress(data: bytes, compression: str, size: int) -> bytes:
         unpacked: bytes = lz4.frame.decompress(data)
         return unpacked
     if compression:
-        msg = f"unknown compression {compression!r}"
-        raise ValueError(msg)
+        raise ValueError(f"unknown compression {compression!r}")
     return data

@@ -44,8 +44,7 @@ def load_typestore(share: Path) -> Typestore:
     """
     paths = sorted((share / "msg").glob("*.msg"))
     if not paths:
-        msg = f"{str(share / 'msg')!r} holds no .msg files of {_PACKAGE}"
-        raise InputError(msg)
+        raise InputError(f"{str(share / 'msg')!r} holds no .msg files of {_PACKAGE}")
     store = get_typestore(Stores.ROS2_JAZZY)
     types = {}
     for path in paths:

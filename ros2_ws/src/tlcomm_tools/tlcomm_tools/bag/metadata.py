@@ -85,7 +85,7 @@ class BagCounts:
 def qos_text(*, latched: bool) -> str:
     """Return the offered quality of service as YAML."""
     if latched:
-        return _QOS.format(depth=1, durability="transient_local")
+        return _QOS.format(depth=10, durability="transient_local")
     return _QOS.format(depth=1000, durability="volatile")
 
 

@@ -59,17 +59,16 @@ def find_files(path: Path) -> tuple[Path, ...]:
     if path.is_file():
         return (path,)
     if not path.is_dir():
-        msg = f"{str(path)!r} doesn't exist (expected a run folder, a bag folder or an MCAP file)"
-        raise InputError(msg)
+        raise InputError(
+            f"{str(path)!r} doesn't exist (expected a run folder, a bag folder or an MCAP file)"
+        )
     for folder in (path, path / "bag"):
         files = _listed_files(folder) or tuple(sorted(folder.glob("*.mcap")))
         if files:
             return files
     if next(path.glob("**/*.db3"), None):
-        msg = f"{str(path)!r} is an SQLite bag; only MCAP bags can be read"
-        raise InputError(msg)
-    msg = f"{str(path)!r} holds no bag (expected *.mcap in it or in its folder bag/)"
-    raise InputError(msg)
+        raise InputError(f"{str(path)!r} is an SQLite bag; only MCAP bags can be read")
+    raise InputError(f"{str(path)!r} holds no bag (expected *.mcap in it or in its folder bag/)")
 
 
 def _listed_files(folder: Path) -> tuple[Path, ...]:
@@ -123,11 +122,11 @@ def _require_run(path: Path, containers: Iterable[Container]) -> None:
     needed = ("/connectivity", "/odom", "/task_event")
     missing = [name for name in needed if not any(topic.endswith(name) for topic in topics)]
     if missing:
-        msg = f"{str(path)!r} is no bag of a tlcomm run: it has no topic {missing[0].lstrip('/')!r}"
-        raise InputError(msg)
+        raise InputError(
+            f"{str(path)!r} is no bag of a tlcomm run: it has no topic {missing[0].lstrip('/')!r}"
+        )
     if not any(held.messages for held in containers):
-        msg = f"{str(path)!r} is empty: it holds no messages of a run"
-        raise InputError(msg)
+        raise InputError(f"{str(path)!r} is empty: it holds no messages of a run")
 
 
 def _gather(path: Path, containers: list[Container]) -> RecordedRun:
@@ -140,8 +139,11 @@ def _gather(path: Path, containers: list[Container]) -> RecordedRun:
         except InputError:
             raise
         except Exception as error:
-            msg = f"{str(path)!r} holds a message that can't be decoded: {error}"
-            raise InputError(msg) from error
+            # Decoders are made from the definitions that the file brings along, so a foreign or
+            # damaged one can fail in any way.
+            raise InputError(
+                f"{str(path)!r} holds a message that can't be decoded: {error}"
+            ) from error
     records = collected.records
     for entries in (records.odometry, records.connectivity, records.tasks, records.strategies):
         entries.sort(key=attrgetter("stamp_ns"))
@@ -214,8 +216,9 @@ def _make_typestore(channels: Iterable[Channel]) -> Typestore:
         if not _is_wanted(channel):
             continue
         if channel.encoding != "cdr":
-            msg = f"topic {channel.topic!r} is encoded as {channel.encoding!r}, expected 'cdr'"
-            raise InputError(msg)
+            raise InputError(
+                f"topic {channel.topic!r} is encoded as {channel.encoding!r}, expected 'cdr'"
+            )
         if channel.definition_encoding == "ros2idl":
             types.update(get_types_from_idl(channel.definition))
         elif channel.type not in types:

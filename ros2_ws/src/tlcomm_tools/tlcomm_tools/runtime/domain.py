@@ -50,8 +50,7 @@ def claim_domain(directory: Path | None = None) -> Iterator[int]:
             if _ports_are_free(domain):
                 yield domain
                 return
-    message = f"no ROS domain from {_DOMAINS[0]} to {_DOMAINS[-1]} is free on this machine"
-    raise InputError(message)
+    raise InputError(f"no ROS domain from {_DOMAINS[0]} to {_DOMAINS[-1]} is free on this machine")
 
 
 def process_environment(
@@ -72,11 +71,10 @@ def process_environment(
         InputError: they are too many for the user's discovery range.
     """
     if inherited.get(_RANGE) == "LOCALHOST" and processes > LOCALHOST_PROCESSES:
-        message = (
+        raise InputError(
             f"{processes} processes, but only {LOCALHOST_PROCESSES} find each other with "
             f"{_RANGE}=LOCALHOST: unset it, or set it to SUBNET"
         )
-        raise InputError(message)
     is_chosen = _RANGE in inherited or _PROFILES in inherited
     discovery = {} if is_chosen else {_RANGE: "SYSTEM_DEFAULT", _PROFILES: str(_LOOPBACK)}
     return {

@@ -4,12 +4,12 @@
 """
 
 import argparse
+import contextlib
 import os
 import signal
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Final
 
 from rclpy.parameter import Parameter
 
@@ -25,11 +25,9 @@ from tlcomm_tools.runtime.notify import (
     watch_parent,
 )
 from tlcomm_tools.runtime.spin import spin
+from tlcomm_tools.status import Status
 
 __all__ = ["main"]
-
-_STATUS_INPUT: Final = 2
-_STATUS_BROKEN: Final = 3
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -37,19 +35,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     watch_parent()
     # A process that wakes up waits for its turn instead of interrupting another's: what arrives
     # meanwhile is then handled together, and agents that share a computer agree sooner.
-    os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
+    # It is a favour to the others: where the kernel doesn't grant it, all goes on without.
+    with contextlib.suppress(OSError):
+        os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
     notifier = Notifier.from_environment()
     arguments = _parser().parse_args(argv)
     work: Callable[[argparse.Namespace, Notifier], int] = arguments.work
     try:
         return work(arguments, notifier)
     except (InputError, PlanningError) as error:
-        return _fail(notifier, error, _STATUS_INPUT)
+        return _fail(notifier, error, Status.BAD_INPUT)
     except TlcommError as error:
-        return _fail(notifier, error, _STATUS_BROKEN)
+        return _fail(notifier, error, Status.BROKEN)
 
 
-def _fail(notifier: Notifier, error: TlcommError, status: int) -> int:
+def _fail(notifier: Notifier, error: TlcommError, status: Status) -> int:
     print(error, file=sys.stderr)
     # The supervisor interrupts everybody as soon as it hears of this; it is leaving already.
     signal.signal(signal.SIGINT, signal.SIG_IGN)

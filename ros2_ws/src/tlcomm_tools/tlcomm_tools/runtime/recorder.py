@@ -11,7 +11,6 @@ answered only when all of them have arrived. So nothing can be missing without b
 import signal
 import struct
 import time
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
@@ -34,6 +33,8 @@ from tlcomm_tools.bag.topics import Topic, recorded_topics
 from tlcomm_tools.bag.writer import BagWriter
 from tlcomm_tools.runtime.ledger import Expected, Ledger
 from tlcomm_tools.runtime.notify import Failed, Finished, Notifier, Ready, Started
+from tlcomm_tools.runtime.spin import Spin
+from tlcomm_tools.status import Status
 
 __all__ = ["Recorder", "RecorderSettings", "run"]
 
@@ -46,13 +47,9 @@ _PATIENCE_S = 7.0
 # How long the end waits for what is under way, and after how many silent timers it waits no more.
 _DRAIN_S = 1.5
 _SILENT_PERIODS = 3
-_STATUS_INPUT = 2
-_STATUS_BROKEN = 3
 # Every recorded type begins with a stamp, behind the four bytes of the encapsulation.
 _STAMP = struct.Struct("<iI")
 _STAMP_OFFSET = 4
-
-Spin = Callable[[Node, Callable[[], bool]], None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,15 +76,15 @@ def run(settings: RecorderSettings, spin: Spin, notifier: Notifier) -> int:
         writer = _open_bag(settings)
     except OSError as error:
         reason = f"can't write {str(settings.bag)!r}: {error.strerror}"
-        notifier.tell(Failed(reason, _STATUS_INPUT))
-        return _STATUS_INPUT
+        notifier.tell(Failed(reason, Status.BAD_INPUT))
+        return Status.BAD_INPUT
     try:
         with writer:
             is_over = _record(settings, writer, spin, notifier)
     except OSError as error:
         reason = f"can't write {str(settings.bag)!r} any more: {error.strerror}"
-        notifier.tell(Failed(reason, _STATUS_BROKEN))
-        return _STATUS_BROKEN
+        notifier.tell(Failed(reason, Status.BROKEN))
+        return Status.BROKEN
     if is_over:
         notifier.tell(Finished())
     return 0
@@ -117,6 +114,7 @@ def _record(settings: RecorderSettings, writer: BagWriter, spin: Spin, notifier:
     try:
         notifier.tell(Started())
         spin(node, lambda: node.is_done or bool(signals))
+        node.await_silence()
         until_s = time.monotonic() + _DRAIN_S
         spin(node, lambda: node.is_done or node.is_quiet or time.monotonic() > until_s)
         node.say_what_is_missing()
@@ -164,9 +162,13 @@ class Recorder(Node):
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(_PERIOD_S, self._on_timer, clock=steady)
 
+    def await_silence(self) -> None:
+        """Begin to look out for silence."""
+        self._silent_periods = 0
+
     @property
     def is_quiet(self) -> bool:
-        """Whether nothing has arrived for a while."""
+        """Whether nothing has arrived for a while, since silence is looked out for."""
         return self._silent_periods >= _SILENT_PERIODS
 
     def say_what_is_missing(self) -> None:
@@ -222,7 +224,7 @@ class Recorder(Node):
         self._silent_periods += 1
         if self._tick is not None and time.monotonic() > self._tick_since_s + _PATIENCE_S:
             # The sim could only say that the recorder doesn't answer; this names whose fault it is.
-            self._notifier.tell(Failed(self._missing(self._tick), _STATUS_BROKEN))
+            self._notifier.tell(Failed(self._missing(self._tick), Status.BROKEN))
         if self._is_running:
             return
         if not self._is_ready and self._is_matched():

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 
 from tlcomm_tools.runtime.child import Child, ProcessSpec
 from tlcomm_tools.runtime.notify import Note, Progress
+from tlcomm_tools.status import Status
 
 __all__ = [
     "DEADLINES",
@@ -32,7 +33,6 @@ __all__ = [
     "run_processes",
 ]
 
-_STATUS_BROKEN = 3
 _INTERRUPTING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -81,7 +81,7 @@ class RunFailed:
 
     name: str
     reason: str
-    status: int = _STATUS_BROKEN
+    status: int = Status.BROKEN
     log_tail: tuple[str, ...] = ()
 
 

@@ -106,22 +106,6 @@ def method(text: str) -> str:
     return text
 
 
-def _whole(text: str) -> int | None:
-    try:
-        return int(text)
-    except ValueError:
-        return None
-
-
-def _number(text: str) -> float | None:
-    """Return a positive finite number, or ``None``."""
-    try:
-        value = float(text)
-    except ValueError:
-        return None
-    return value if math.isfinite(value) and value > 0.0 else None
-
-
 def add_mission_arguments(parser: argparse.ArgumentParser) -> None:
     """Add how long to run, how, and where to write."""
     end = parser.add_mutually_exclusive_group()
@@ -176,3 +160,19 @@ def mission_end(options: argparse.Namespace) -> tuple[int | None, float | None]:
 def print_json(document: Mapping[str, Any]) -> None:
     """Print one JSON document on standard output."""
     print(json.dumps(document, indent=2, ensure_ascii=False))
+
+
+def _whole(text: str) -> int | None:
+    try:
+        return int(text)
+    except ValueError:
+        return None
+
+
+def _number(text: str) -> float | None:
+    """Return a positive finite number, or ``None``."""
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if math.isfinite(value) and value > 0.0 else None

@@ -1,0 +1,64 @@
+"""The verb ``check``."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from support.command import run
+from support.hand_made_run import hand_made_records, hand_made_scenario, write_bag
+from tlcomm_core.agent.actions import TaskEventKind
+from tlcomm_core.scenario.loader import dumps
+
+
+def test_check_a_good_bag(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A good bag passes, by text and by JSON, with the scenario that is inside."""
+    write_bag(tmp_path / "bag", hand_made_records())
+    status, out, _ = run(capsys, "check", "bag")
+    assert (status, out.splitlines()[-1]) == (0, "verdict: ok")
+    assert max(map(len, out.splitlines())) <= 80
+    status, out, _ = run(capsys, "check", ".", "--json")
+    assert (status, json.loads(out)["verdict"]) == (0, "ok")
+
+
+def test_check_a_bad_bag(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A violation is listed, and the exit status is 1."""
+    records = hand_made_records()
+    records.tasks = [
+        own for own in records.tasks if own.event.kind is not TaskEventKind.TASK_SATISFIED
+    ]
+    write_bag(tmp_path / "bag", records)
+    status, out, _ = run(capsys, "check", "bag")
+    assert status == 1
+    assert "verdict: FAILED\n  - east: task claimed satisfied 0 times" in out
+    status, out, _ = run(capsys, "check", "bag", "--json")
+    assert (status, len(json.loads(out)["verdict"])) == (1, 2)
+
+
+def test_check_finds_the_scenario(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A bag that says nothing of its scenario is audited by the one beside it, or the one given."""
+    write_bag(tmp_path / "bag", hand_made_records(), with_scenario=False)
+    status, _, err = run(capsys, "check", "bag")
+    assert status == 2
+    assert "'bag' says nothing of its scenario: give it with --scenario FILE" in err
+    (tmp_path / "line.yaml").write_text(dumps(hand_made_scenario()), "utf-8")
+    assert run(capsys, "check", "bag", "--scenario", "line.yaml")[0] == 0
+    (tmp_path / "line.yaml").rename(tmp_path / "scenario.yaml")
+    assert run(capsys, "check", "bag")[0] == 0
+
+
+def test_check_tells_a_violated_task(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Agent and time are in the table, in the verdict and in JSON; the status is 1."""
+    write_bag(tmp_path / "bag", hand_made_records())
+    text = dumps(hand_made_scenario())
+    (tmp_path / "strict.yaml").write_text(text.replace("G F (left & pick)", "G !(left & pick)"))
+    status, out, _ = run(capsys, "check", "bag", "--scenario", "strict.yaml")
+    assert status == 1
+    assert re.search(r"\n  west .* violated at 5\.000 s\n", out)
+    assert re.search(r"\n  east .* kept\n", out)
+    assert "\n  - west: task violated at 5.000 s; what was true then: {left, pick}\n" in out
+    assert max(map(len, out.splitlines())) <= 80
+    status, out, _ = run(capsys, "check", "bag", "--scenario", "strict.yaml", "--json")
+    found = json.loads(out)["tasks"]["west"]
+    assert (status, found["verdict"], found["settled_s"]) == (1, "violated", 5.0)
