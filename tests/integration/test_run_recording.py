@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from rosbags.highlevel import AnyReader
 
+from tlcomm_core.errors import InputError
 from tlcomm_core.scenario.loader import loads
 from tlcomm_tools.audit.findings import audit_run
 from tlcomm_tools.bag.reader import read_run
@@ -54,15 +55,23 @@ def start_run(folder: Path) -> "subprocess.Popen[str]":
 
 
 def break_run(folder: Path, act: Callable[["subprocess.Popen[str]"], None]) -> tuple[int, str]:
-    """Run, act once simulated time goes on, and return exit status and errors."""
+    """Run, act once something has come into the bag, and return exit status and errors."""
     with start_run(folder) as process:
         assert process.stderr is not None
         for line in process.stderr:
-            if " 0.0 s simulated" not in line:
+            if " s simulated" in line and has_messages(folder):
                 break
         act(process)
         _, errors = process.communicate(timeout=60)
     return process.returncode, errors
+
+
+def has_messages(folder: Path) -> bool:
+    """Tell whether a run's bag holds anything yet."""
+    try:
+        return read_run(folder).end_ns > 0
+    except InputError:
+        return False
 
 
 def assert_readable(folder: Path) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tlcomm_core.planning.lasso import Lasso, Objective, optimal_lasso
-from tlcomm_core.planning.product import Product
+from tlcomm_core.planning.product import Product, Reading
 
 
 def random_product(seed: int) -> Product:
@@ -20,8 +20,12 @@ def random_product(seed: int) -> Product:
     time_ns[source >= target] += 1
     accepting = rng.random(count) < rng.choice([0.1, 0.2, 1.0])
     initial = np.unique(rng.integers(0, size, int(rng.integers(1, 3))))
-    everything = Product(size, initial, source, target, np.arange(count), accepting, time_ns)
-    return reachable_part(everything)
+    initial_ns = rng.integers(0, 3, len(initial))
+    step = np.arange(count)
+    unread = Reading((), initial, step)
+    return reachable_part(
+        Product(size, initial, source, target, step, accepting, time_ns, initial_ns, unread)
+    )
 
 
 def reachable_part(product: Product) -> Product:
@@ -40,6 +44,8 @@ def reachable_part(product: Product) -> Product:
         step=product.step[kept],
         accepting=product.accepting[kept],
         time_ns=product.time_ns[kept],
+        initial_ns=product.initial_ns,
+        reading=product.reading,
     )
 
 
@@ -66,7 +72,9 @@ def cost(product: Product, lasso: Lasso, gamma: Fraction | None) -> tuple[Fracti
     times_ns = product.time_ns
     until = product.accepting[list(lasso.suffix)].argmax() + 1
     first = [*lasso.prefix, *lasso.suffix[:until]]
-    suffix_ns, first_ns = int(times_ns[list(lasso.suffix)].sum()), int(times_ns[first].sum())
+    entry = product.initial == product.source[first[0]]
+    first_ns = int(times_ns[first].sum()) + int(product.initial_ns[entry].sum())
+    suffix_ns = int(times_ns[list(lasso.suffix)].sum())
     steps = len(first) + len(lasso.suffix)
     if gamma is None:
         return suffix_ns, first_ns, steps

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tlcomm_core.planning.lasso import Lasso, Objective, optimal_lasso
-from tlcomm_core.planning.product import Product
+from tlcomm_core.planning.product import Product, Reading
 
 
 def product(size: int, *edges: tuple[int, int, int, bool], initial: int = 0) -> Product:
@@ -20,6 +20,8 @@ def product(size: int, *edges: tuple[int, int, int, bool], initial: int = 0) -> 
         step=np.arange(len(edges)),
         accepting=columns[3] > 0,
         time_ns=columns[2],
+        initial_ns=np.array([0]),
+        reading=Reading((), np.array([0]), np.arange(len(edges))),
     )
 
 

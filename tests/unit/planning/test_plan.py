@@ -1,5 +1,7 @@
 """The local plan as one endless sequence."""
 
+from dataclasses import replace
+
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
 
 
@@ -31,3 +33,13 @@ def test_the_word_begins_with_what_is_true_at_the_start() -> None:
     stem, loop = plan((step("a"),), (step("b"), step("c"))).word
     assert stem == ({"z"}, {"a"})
     assert loop == ({"b"}, {"c"})
+
+
+def test_violations_are_counted_and_priced_once_for_the_prefix_and_per_pass() -> None:
+    """The start counts with the prefix; a plan without a soft task violates nothing."""
+    off = replace(step("a"), wanted=("b", "!a"))
+    priced = replace(plan((off,), (step("b"), off)), initial_wanted=("c",), weight_s=2.5)
+    assert (priced.prefix_violation, priced.suffix_violation) == (3, 2)
+    assert (priced.prefix_price_s, priced.suffix_price_s) == (7.5, 5.0)
+    strict = plan((), (step("a"),))
+    assert (strict.prefix_violation, strict.suffix_price_s) == (0, 0.0)

@@ -126,8 +126,12 @@ def test_a_missing_file_is_named(path: Path, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("replacement", "expected"),
     [
-        ("task: 'G F a'\n    automaton: both.hoa", "task: given beside an automaton; expected"),
-        ("motion: {}", "agents.one.task: missing; expected either a formula or"),
+        ("task: 'G F a'\n    automaton: both.hoa", "one.task: given beside an automaton; expected"),
+        (
+            "motion: {}",
+            "agents.one.task: missing; expected a formula, here or in tasks, or an automaton",
+        ),
+        ("tasks: ['G F a']\n    automaton: both.hoa", "one.tasks[0]: given beside an automaton"),
         ("automaton: 7", "agents.one.automaton: found 7; expected a valid string"),
     ],
 )

@@ -67,6 +67,38 @@ def test_the_projects_scenarios_load_and_survive_a_round_trip(name: str) -> None
     assert loads(text) == scenario
 
 
+def test_tasks_and_a_soft_task_load_and_are_written_out() -> None:
+    """All hard tasks count together; the soft one stays apart."""
+    tasks = (
+        'task: "G F b"\n    tasks: ["F a | b", "G !drop"]\n    soft: {task: F pick, weight_s: 2}'
+    )
+    scenario = loads(GOOD.replace('task: "G F b"', tasks))
+    one, two = scenario.agents.values()
+    assert (one.hard_tasks, one.whole_task) == (("G F (a & pick)",), "G F (a & pick)")
+    assert two.whole_task == "(G F b) & (F a | b) & (G !drop)"
+    assert two.soft is not None
+    assert (two.soft.task, two.soft.weight_s) == ("F pick", 2.0)
+    assert "weight_s: 2.0" in dumps(scenario)
+    assert loads(dumps(scenario)) == scenario
+
+
+def test_tasks_alone_are_enough() -> None:
+    """An agent needs no task beside its tasks; a soft task alone isn't one."""
+    scenario = loads(GOOD.replace('    task: "G F b"', '    tasks: ["G F b"]'))
+    assert scenario.agents["two"].whole_task == "G F b"
+    assert loads(dumps(scenario)) == scenario
+    with pytest.raises(ScenarioError, match=r"agents\.two\.task: missing"):
+        loads(GOOD.replace('    task: "G F b"', "    soft: {task: F b, weight_s: 1}"))
+
+
+def test_only_what_must_be_done_must_be_reachable() -> None:
+    """A soft task may name a region behind a wall, a hard one in the list may not."""
+    walled = GOOD.replace("[2.25, 3.25]", "[3.75, 3.25]")
+    loads(walled.replace('task: "G F b"', "task: G F a\n    soft: {task: F b, weight_s: 1}"))
+    with pytest.raises(ScenarioError, match=r"agents\.two\.tasks\[0\]: region 'b' can't be"):
+        loads(walled.replace('task: "G F b"', 'task: G F a\n    tasks: ["F b"]'))
+
+
 # What to replace in GOOD, by what, the line of the error, and what it says.
 BAD = [
     ("G F b", "G F c", 20, "agents.two.task: unknown region or action 'c'; expected one of"),
@@ -133,6 +165,24 @@ BAD = [
     ("cell_m: 0.5", "cell_m: 5.0", 4, "workspace.cell_m: 5.0 makes 0.8 x 0.8 cells"),
     ("name: small", "name: ../../etc", 1, "name: found '../../etc'"),
     ("  size_m: [4.0, 4.0]\n", "", 2, "workspace.size_m: missing"),
+    ('    task: "G F b"\n', "", 18,
+     "agents.two.task: missing; expected a formula, here or in tasks"),
+    ('    task: "G F b"', "    tasks: []", 18, "agents.two.task: missing"),
+    ('    task: "G F b"', '    tasks: ["F b", "F c"]', 20,
+     "agents.two.tasks[1]: unknown region or action 'c'"),
+    ('    task: "G F b"', '    task: F b\n    tasks: ["F b & "]', 21,
+     "agents.two.tasks[0]: column 7"),
+    ('    task: "G F b"', "    tasks: F b", 20, "agents.two.tasks: found 'F b'"),
+    ("    motion: {linear", '    soft: {task: "G !c", weight_s: 1}\n    motion: {linear', 21,
+     "agents.two.soft.task: unknown region or action 'c'"),
+    ("    motion: {linear", "    soft: {task: G (!a, weight_s: 1}\n    motion: {linear", 21,
+     "agents.two.soft.task: column 6"),
+    ("    motion: {linear", "    soft: {task: G !a}\n    motion: {linear", 21,
+     "agents.two.soft.weight_s: missing"),
+    ("    motion: {linear", "    soft: {task: G !a, weight_s: -1}\n    motion: {linear", 21,
+     "agents.two.soft.weight_s: found -1; expected greater than or equal to 0"),
+    ("    motion: {linear", "    soft: {task: G !a, weight_s: 1e6}\n    motion: {linear", 21,
+     "agents.two.soft.weight_s: found 1000000.0"),
     ("  cell_m: 0.5", "  cell_m: 0.5\n  map: x.yaml", 5, "workspace.map: given beside 'size_m'"),
 ]  # fmt: skip
 

@@ -140,7 +140,7 @@ def patience_s(scenario: Scenario, agent: str) -> float:
     if own.automaton is not None:
         actions = read_automaton(own.automaton).state_count
     else:
-        words = re.findall(r"\w+", own.task or "")
+        words = re.findall(r"\w+", own.whole_task)
         actions = sum(word in scenario.actions_of(agent) for word in words)
     return (actions + _SPARE_WINDOWS) * scenario.communication.period_s
 

@@ -39,3 +39,25 @@ def test_a_task_without_a_plan_is_one_line(
     assert re.fullmatch(
         r"tlcomm: error: bad.yaml: agents.west.task: .* contradicts itself.*\n", err
     )
+
+
+def test_plan_with_a_soft_task(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """What a plan violates, where and at what price is told; without weight nothing is."""
+    text = Path(CORRIDOR).read_text("utf-8")
+
+    def plan(weight: str, *options: str) -> str:
+        soft = f"  west:\n    soft: {{task: G !pick, weight_s: {weight}}}\n"
+        (tmp_path / "soft.yaml").write_text(text.replace("  west:\n", soft), "utf-8")
+        status, out, _ = run(capsys, "plan", "soft.yaml", "--agent", "west", *options)
+        assert status == 0
+        return out
+
+    out = plan("2.5")
+    assert "  soft task G !pick, 2.5 s per atom\n" in out
+    assert "1 atom (2.50 s) in each suffix" in out
+    assert [line for line in out.splitlines() if "pick" in line and line.endswith("  !pick")]
+    own = json.loads(plan("2.5", "--json"))["agents"]["west"]
+    assert (own["soft"]["suffix_violation"], own["soft"]["suffix_price_s"]) == (1, 2.5)
+    assert ["!pick"] in [step["soft_wants"] for step in own["suffix"]]
+    assert "soft task G !pick: ignored, as its weight is 0" in plan("0")
+    assert json.loads(plan("0", "--json"))["agents"]["west"]["soft"]["suffix_violation"] is None

@@ -18,8 +18,10 @@ from tlcomm_core.agent.radio import Radio
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.geometry import Pose
+from tlcomm_core.ltl import parse
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective
 from tlcomm_core.planning.plan import LocalPlan
+from tlcomm_core.planning.relaxation import SoftTask, soft_task
 from tlcomm_core.planning.synthesis import plan_task
 from tlcomm_core.planning.transition_system import build
 from tlcomm_core.protocol.actions import CountIgnored
@@ -121,12 +123,22 @@ def local_plan(
         site.regions_at,
         site.action_durations(name),
     )
-    agent = site.scenario.agents[name]
+    agent, soft = site.scenario.agents[name], _soft_task(name, site)
     try:
-        return plan_task(task_of(agent), system, objective)
+        return plan_task(task_of(agent), system, objective, soft)
     except PlanningError as error:
-        field = "task" if agent.automaton is None else "automaton"
-        raise type(error)(f"agents.{name}.{field}: {error}") from error
+        place = "tasks" if agent.tasks else "task" if agent.automaton is None else "automaton"
+        raise type(error)(f"agents.{name}.{place}: {error}") from error
+
+
+def _soft_task(name: str, site: Site) -> SoftTask | None:
+    soft = site.scenario.agents[name].soft
+    if soft is None:
+        return None
+    try:
+        return soft_task(parse(soft.task), soft.weight_s)
+    except PlanningError as error:
+        raise type(error)(f"agents.{name}.soft.task: {error}") from error
 
 
 def check_tasks(site: Site) -> None:

@@ -130,7 +130,7 @@ class _Search:
         names = np.arange(len(product.source))
         arcs = Arcs(product.source, product.target, product.time_ns, names)
         zeros = np.zeros_like(product.initial)
-        entrance = Arcs(zeros + root, product.initial, zeros, zeros - 1)
+        entrance = Arcs(zeros + root, product.initial, product.initial_ns, zeros - 1)
         graph = Graph(root + 1, arcs.joined(entrance))
         component = _strong_components(graph)
         self._objective: Final = objective

@@ -22,6 +22,8 @@ class PlanStep:
         label: everything that is true there, the step's letter of the word.
         satisfies: whether completing this step takes an accepting transition of the task's
             automaton; for □◇φ^s it completes φ^s.
+        wanted: where the step violates the soft task, the literals that this would have needed:
+            atoms that should have been true and, with ! before them, false.
     """
 
     region: str
@@ -30,6 +32,7 @@ class PlanStep:
     duration_s: float
     label: frozenset[str]
     satisfies: bool
+    wanted: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +49,8 @@ class LocalPlan:
         prefix_m: length of the way from the start pose to the end of the prefix.
         suffix_m: length of the way of one pass through the suffix.
         initial_label: what is true at the start, the first letter of the word.
+        initial_wanted: what the soft task would have needed there, as in a step.
+        weight_s: price of each violation in s; ``None`` without a soft task.
     """
 
     prefix: tuple[PlanStep, ...]
@@ -56,6 +61,28 @@ class LocalPlan:
     prefix_m: float
     suffix_m: float
     initial_label: frozenset[str]
+    initial_wanted: tuple[str, ...] = ()
+    weight_s: float | None = None
+
+    @property
+    def prefix_violation(self) -> int:
+        """Number of atoms that the soft task wants otherwise, from the start through the prefix."""
+        return len(self.initial_wanted) + sum(len(step.wanted) for step in self.prefix)
+
+    @property
+    def suffix_violation(self) -> int:
+        """Number of atoms that the soft task wants otherwise in one pass through the suffix."""
+        return sum(len(step.wanted) for step in self.suffix)
+
+    @property
+    def prefix_price_s(self) -> float:
+        """Price of what is violated from the start through the prefix."""
+        return self.prefix_violation * (self.weight_s or 0.0)
+
+    @property
+    def suffix_price_s(self) -> float:
+        """Price of what is violated in one pass through the suffix."""
+        return self.suffix_violation * (self.weight_s or 0.0)
 
     @property
     def word(self) -> tuple[tuple[frozenset[str], ...], tuple[frozenset[str], ...]]:

@@ -1,20 +1,29 @@
-"""The product of a transition system and a Büchi automaton, as arrays.
+"""The product of a transition system and a task's automaton, as arrays.
 
-- ``Automaton``  what the product asks of an automaton
-- ``Product``    states and edges
-- ``build``      the reachable part
+- ``Product``   states and edges
+- ``Reading``   which moves of the automaton they are
+- ``build``     the reachable part
+- ``ticks_ns``  times as integers
 """
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Final, Protocol
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tlcomm_core.planning.relaxation import (
+    Automaton,
+    Move,
+    Reader,
+    Relaxed,
+    SoftTask,
+    Strict,
+)
 from tlcomm_core.planning.transition_system import TransitionSystem
 
-__all__ = ["Automaton", "Product", "build", "ticks_ns"]
+__all__ = ["Product", "Reading", "build", "ticks_ns"]
 
 Ints = NDArray[np.int64]
 
@@ -22,27 +31,19 @@ Ints = NDArray[np.int64]
 _ROUNDING_NS: Final = 1e-3
 
 
-class Automaton(Protocol):
-    """A Büchi automaton with acceptance on transitions, nondeterministic or not."""
+@dataclass(frozen=True, slots=True, eq=False)
+class Reading:
+    """What the automaton does along a product's edges, and on the initial label.
 
-    @property
-    def atoms(self) -> tuple[str, ...]:
-        """Names that it reads."""
-        ...
+    Attributes:
+        moves: the distinct moves.
+        initial: the move into each initial product state, an index into ``moves``.
+        edge: the move of each edge, int[E], likewise.
+    """
 
-    @property
-    def initial(self) -> int:
-        """State before the first letter."""
-        ...
-
-    @property
-    def state_count(self) -> int:
-        """Number of states."""
-        ...
-
-    def successors(self, state: int, label: frozenset[str]) -> tuple[tuple[int, bool], ...]:
-        """Return (target, accepting) of each transition that a letter allows."""
-        ...
+    moves: Sequence[Move]
+    initial: Ints
+    edge: Ints
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,7 +51,8 @@ class Product:
     """The reachable product states and edges.
 
     A product state is a state of the transition system with the automaton's state after reading
-    the label of the composed state entered. Parallel edges (several actions) are kept.
+    the label of the composed state entered. Parallel edges (several actions) are kept. What an
+    edge takes is its step's time and the price of what it violates.
 
     Attributes:
         size: number of product states.
@@ -60,6 +62,8 @@ class Product:
         step: the transition system's step of each edge, int[E].
         accepting: whether the edge takes an accepting transition of the automaton, bool[E].
         time_ns: cost, int[E], see ``ticks_ns``.
+        initial_ns: price of the initial label in each initial product state.
+        reading: the automaton's part in it.
     """
 
     size: int
@@ -69,6 +73,8 @@ class Product:
     step: Ints
     accepting: NDArray[np.bool_]
     time_ns: Ints
+    initial_ns: Ints
+    reading: Reading
 
 
 def ticks_ns(time_s: NDArray[np.float64]) -> Ints:
@@ -82,13 +88,16 @@ def ticks_ns(time_s: NDArray[np.float64]) -> Ints:
     return ticks
 
 
-def build(system: TransitionSystem, automaton: Automaton) -> Product:
+def build(system: TransitionSystem, automaton: Automaton, soft: SoftTask | None = None) -> Product:
     """Return the reachable part of the product.
 
     Source: Section IV-A, P_i. A run begins in the initial state and reads its label first.
     Cost: linear in the product's edges; the automaton is asked once per state and letter.
     """
-    return _Builder(system, automaton).build()
+    if soft is None:
+        return _Builder(system, Strict(automaton), 0).build()
+    price_ns = int(ticks_ns(np.array([soft.weight_s]))[0])
+    return _Builder(system, Relaxed(automaton, soft.automaton), price_ns).build()
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +107,7 @@ class _Layer:
     source: Ints
     target: Ints
     step: Ints
-    accepting: NDArray[np.bool_]
+    move: Ints
 
 
 class _Builder:
@@ -107,32 +116,50 @@ class _Builder:
     The key of (state s, automaton state q) is s·|Q| + q.
     """
 
-    def __init__(self, system: TransitionSystem, automaton: Automaton) -> None:
+    def __init__(self, system: TransitionSystem, reader: Reader, price_ns: int) -> None:
         self._system = system
         self._first_step = np.searchsorted(system.source, np.arange(len(system.states) + 1))
-        self._count = automaton.state_count
-        self._moves = _Moves(automaton, system.labels)
-        self._initial = automaton.initial
+        self._count = reader.state_count
+        self._moves = _Moves(reader, system.labels)
+        self._initial = reader.initial
+        self._price_ns = price_ns
 
     def build(self) -> Product:
         """Return the product of what is reachable, its states numbered by their keys."""
-        # The initial state is number 0, so its keys are the automaton's states.
-        first_label = np.array([self._system.initial_label])
-        initial = np.unique(self._moves.of(np.array([self._initial]), first_label)[0])
+        initial, initial_move = self._initial_states()
         layers = list(self._layers(initial))
         source = np.concatenate([layer.source for layer in layers])
         target = np.concatenate([layer.target for layer in layers])
         step = np.concatenate([layer.step for layer in layers])
+        move = np.concatenate([layer.move for layer in layers])
         keys = np.union1d(np.concatenate((initial, source)), target)
+        moves = self._moves.table()
+        prices_ns = self._prices_ns(moves)
         return Product(
             size=len(keys),
             initial=np.searchsorted(keys, initial),
             source=np.searchsorted(keys, source),
             target=np.searchsorted(keys, target),
             step=step,
-            accepting=np.concatenate([layer.accepting for layer in layers]),
-            time_ns=ticks_ns(self._system.time_s)[step],
+            accepting=np.array([each.accepting for each in moves], dtype=np.bool_)[move],
+            time_ns=ticks_ns(self._system.time_s)[step] + prices_ns[move],
+            initial_ns=prices_ns[initial_move],
+            reading=Reading(moves, initial_move, move),
         )
+
+    def _initial_states(self) -> tuple[Ints, Ints]:
+        """Return the initial states, ascending, and the cheapest move into each."""
+        start, label = np.array([self._initial]), np.array([self._system.initial_label])
+        move, _ = self._moves.of(start, label)
+        # The transition system's initial state is number 0, so its keys are the automaton's states.
+        target = self._moves.targets(move)
+        order = np.lexsort((self._prices_ns(self._moves.table())[move], target))
+        initial, cheapest = np.unique(target[order], return_index=True)
+        return initial, move[order][cheapest]
+
+    def _prices_ns(self, moves: Sequence[Move]) -> Ints:
+        counts = np.array([len(move.wanted) for move in moves], dtype=np.int64)
+        return counts * self._price_ns
 
     def _layers(self, initial: Ints) -> Iterator[_Layer]:
         """Yield the edges out of the states at distance 0, 1, … of the initial ones."""
@@ -152,41 +179,52 @@ class _Builder:
         steps = _ranges(starts, ends)
         source = np.repeat(keys, ends - starts)
         reading = np.repeat(automaton_states, ends - starts)
-        targets, accepting, counts = self._moves.of(reading, self._system.label[steps])
+        move, counts = self._moves.of(reading, self._system.label[steps])
         step = np.repeat(steps, counts)
-        target = self._system.target[step] * self._count + targets
-        return _Layer(np.repeat(source, counts), target, step, accepting)
+        target = self._system.target[step] * self._count + self._moves.targets(move)
+        return _Layer(np.repeat(source, counts), target, step, move)
 
 
 class _Moves:
-    """The automaton's transitions as one flat table, filled as pairs are first asked for."""
+    """The reader's moves as one flat table, filled as pairs are first asked for."""
 
-    def __init__(self, automaton: Automaton, labels: Sequence[frozenset[str]]) -> None:
-        atoms = frozenset(automaton.atoms)
+    def __init__(self, reader: Reader, labels: Sequence[frozenset[str]]) -> None:
         numbers: dict[frozenset[str], int] = {}
-        letter = [numbers.setdefault(label & atoms, len(numbers)) for label in labels]
-        self._automaton = automaton
+        letter = [numbers.setdefault(label & reader.atoms, len(numbers)) for label in labels]
+        self._reader = reader
         self._letter_of_label = np.array(letter, dtype=np.int64)
         self._letters = tuple(numbers)
-        pairs = automaton.state_count * len(self._letters)
+        pairs = reader.state_count * len(self._letters)
         self._start = np.full(pairs, -1, dtype=np.int64)
         self._end = np.zeros(pairs, dtype=np.int64)
-        self._flat: list[tuple[int, bool]] = []
+        self._flat: list[Move] = []
+        self._target = np.array([], dtype=np.int64)
 
-    def of(self, states: Ints, labels: Ints) -> tuple[Ints, NDArray[np.bool_], Ints]:
-        """Return targets and acceptance for all pairs in a row, and how many each pair has."""
+    def of(self, states: Ints, labels: Ints) -> tuple[Ints, Ints]:
+        """Return the moves of all pairs in a row, and how many each pair has."""
         pairs = states * len(self._letters) + self._letter_of_label[labels]
         self._fill(np.unique(pairs[self._start[pairs] < 0]))
         starts, ends = self._start[pairs], self._end[pairs]
-        flat = np.array(self._flat, dtype=np.int64).reshape(-1, 2)[_ranges(starts, ends)]
-        return flat[:, 0], flat[:, 1] > 0, ends - starts
+        return _ranges(starts, ends), ends - starts
+
+    def targets(self, moves: Ints) -> Ints:
+        """Return the states that some moves lead to."""
+        targets: Ints = self._target[moves]
+        return targets
+
+    def table(self) -> tuple[Move, ...]:
+        """Return the moves asked for so far."""
+        return tuple(self._flat)
 
     def _fill(self, pairs: Ints) -> None:
+        known = len(self._flat)
         for pair in pairs.tolist():
             state, letter = divmod(pair, len(self._letters))
             self._start[pair] = len(self._flat)
-            self._flat.extend(self._automaton.successors(state, self._letters[letter]))
+            self._flat.extend(self._reader.moves(state, self._letters[letter]))
             self._end[pair] = len(self._flat)
+        new = np.array([move.target for move in self._flat[known:]], dtype=np.int64)
+        self._target = np.append(self._target, new)
 
 
 def _ranges(starts: Ints, ends: Ints) -> Ints:

@@ -6,20 +6,26 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from tlcomm_core.errors import PlanningError, UnreachableTaskError, UnsatisfiableTaskError
 from tlcomm_core.ltl import BuchiAutomaton, Cube, Formula, Guard, translate
 from tlcomm_core.planning import product as products
-from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective, optimal_lasso
+from tlcomm_core.planning.lasso import SUFFIX_FIRST, Lasso, Objective, optimal_lasso
 from tlcomm_core.planning.on_the_fly import essential_part, is_large
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
 from tlcomm_core.planning.product import Product
+from tlcomm_core.planning.relaxation import Move, SoftTask
 from tlcomm_core.planning.transition_system import TransitionSystem
 
 __all__ = ["plan_task"]
 
 
 def plan_task(
-    task: Formula | BuchiAutomaton, system: TransitionSystem, objective: Objective = SUFFIX_FIRST
+    task: Formula | BuchiAutomaton,
+    system: TransitionSystem,
+    objective: Objective = SUFFIX_FIRST,
+    soft: SoftTask | None = None,
 ) -> LocalPlan:
     """Return the optimal local plan of an agent for its task.
 
@@ -31,6 +37,8 @@ def plan_task(
         task: the formula; or an automaton, which is used as it is.
         system: the agent's transition system.
         objective: what is to be least.
+        soft: what is to be satisfied beside the task, as much as is worth its price. Violating it
+            adds to the times that the objective speaks about, and the suffix accepts both.
 
     Raises:
         UnsatisfiableTaskError: no word satisfies the task.
@@ -38,19 +46,24 @@ def plan_task(
 
         IntractableTaskError: see ``translate`` and ``essential_part``.
 
-    Source: Section IV-A.
+    Source: Section IV-A; with a soft task, see ``Relaxed``.
     Cost: see ``translate``, ``product.build`` and ``optimal_lasso``; for products that may have
-        more than ``MOST_HELD`` edges ``essential_part`` comes first.
+        more than ``MOST_HELD`` edges ``essential_part`` comes first, unless there is a soft task.
     """
     automaton = task if isinstance(task, BuchiAutomaton) else translate(task)
-    part = essential_part(system, automaton, objective) if is_large(system, automaton) else system
-    product = products.build(part, automaton)
+    part = system
+    if soft is None and is_large(system, automaton):
+        part = essential_part(system, automaton, objective)
+    product = products.build(part, automaton, soft)
     lasso = optimal_lasso(product, objective)
     if lasso is None:
         raise _failure(task, automaton, system)
+    entry = product.source[[*lasso.prefix, *lasso.suffix][0]]
+    lasso = _shortened(lasso, product)
     prefix = _steps(lasso.prefix, product, part, automaton)
     suffix = _steps(lasso.suffix, product, part, automaton)
     first = next(place for place, step in enumerate(suffix) if step.satisfies)
+    start = np.searchsorted(product.initial, entry)
     return LocalPlan(
         prefix=prefix,
         suffix=suffix,
@@ -60,7 +73,22 @@ def plan_task(
         prefix_m=_total_m(lasso.prefix, product, part),
         suffix_m=_total_m(lasso.suffix, product, part),
         initial_label=system.labels[system.initial_label],
+        initial_wanted=product.reading.moves[product.reading.initial[start]].wanted,
+        weight_s=None if soft is None else soft.weight_s,
     )
+
+
+def _shortened(lasso: Lasso, product: Product) -> Lasso:
+    """Return the same run with the shortest prefix, however the automata count their turns."""
+
+    def seen(edge: int) -> tuple[int, Move]:
+        move = product.reading.moves[product.reading.edge[edge]]
+        return int(product.step[edge]), move._replace(target=0, accepting=False)
+
+    prefix, suffix = lasso.prefix, lasso.suffix
+    while prefix and seen(prefix[-1]) == seen(suffix[-1]):
+        prefix, suffix = prefix[:-1], (suffix[-1], *suffix[:-1])
+    return Lasso(prefix, suffix)
 
 
 def _steps(
@@ -74,13 +102,15 @@ def _step(
 ) -> PlanStep:
     step = int(product.step[edge])
     location = system.states[system.target[step]].location
+    move = product.reading.moves[product.reading.edge[edge]]
     return PlanStep(
         region=_region(system.regions[location], automaton.atoms),
         location=location,
         action=system.actions[system.action[step]],
         duration_s=float(system.stay_s[step]),
         label=system.labels[system.label[step]],
-        satisfies=bool(product.accepting[edge]),
+        satisfies=move.satisfies,
+        wanted=move.wanted,
     )
 
 

@@ -13,13 +13,12 @@ import numpy as np
 from scipy.sparse.csgraph import connected_components
 
 from tlcomm_core.errors import FormulaError, InputError
-from tlcomm_core.ltl.automaton import BuchiAutomaton
 from tlcomm_core.ltl.formula import atoms
 from tlcomm_core.ltl.parser import explain, parse
 from tlcomm_core.scenario.document import Place
 from tlcomm_core.scenario.model import Agent, Scenario, Workspace
 from tlcomm_core.scenario.site import grid_of, region_location
-from tlcomm_core.scenario.task import read_automaton, task_of
+from tlcomm_core.scenario.task import read_automaton
 from tlcomm_core.workspace.grid import Grid
 
 __all__ = ["MAX_CELLS", "Finding", "check", "did_you_mean"]
@@ -160,29 +159,47 @@ def _starts(scenario: Scenario, grid: Grid) -> Iterator[Finding]:
 def _tasks(scenario: Scenario) -> Iterator[Finding]:
     for name, agent in scenario.agents.items():
         known = {*scenario.workspace.regions, *scenario.actions_of(name)}
-        if (agent.task is None) == (agent.automaton is None):
-            found = "missing" if agent.task is None else "given beside an automaton"
-            what = f"{found}; expected either a formula or, as automaton, a file in HOA v1"
+        if not any((agent.task is not None, agent.tasks, agent.automaton is not None)):
+            what = "missing; expected a formula, here or in tasks, or an automaton's file"
             yield Finding(("agents", name, "task"), what)
-        elif agent.task is not None:
-            for what in _formula_flaws(agent.task, known):
-                yield Finding(("agents", name, "task"), what)
-        elif agent.automaton is not None:
-            for what in _automaton_flaws(agent.automaton, known):
-                yield Finding(("agents", name, "automaton"), what)
+        if agent.automaton is not None:
+            yield from _given_automaton(name, agent, known)
+        formulas = [*_hard_tasks(agent)]
+        if agent.soft is not None:
+            formulas.append((("soft", "task"), agent.soft.task))
+        for place, text in formulas:
+            for what in _flaws(text, known):
+                yield Finding(("agents", name, *place), what)
 
 
-def _formula_flaws(text: str, known: Collection[str]) -> Iterator[str]:
+def _given_automaton(name: str, agent: Agent, known: Collection[str]) -> Iterator[Finding]:
+    for place, _ in _hard_tasks(agent):
+        what = "given beside an automaton; expected one or the other"
+        yield Finding(("agents", name, *place), what)
+    for what in _automaton_flaws(agent.automaton or "", known):
+        yield Finding(("agents", name, "automaton"), what)
+
+
+def _hard_tasks(agent: Agent) -> Iterator[tuple[Place, str]]:
+    if agent.task is not None:
+        yield ("task",), agent.task
+    for index, text in enumerate(agent.tasks):
+        yield ("tasks", index), text
+
+
+def _flaws(text: str, known: Collection[str]) -> Iterator[str]:
+    """Say what is wrong with a formula over some names."""
     try:
-        formula = parse(text)
+        unknown = sorted({*atoms(parse(text))}.difference(known))
     except FormulaError as error:
         yield explain(error)
         return
-    for atom in sorted({*atoms(formula)}.difference(known)):
+    for atom in unknown:
         yield _unknown(atom, known)
 
 
 def _automaton_flaws(text: str, known: Collection[str]) -> Iterator[str]:
+    """Say what is wrong with an automaton over some names."""
     try:
         automaton = read_automaton(text)
     except InputError as error:
@@ -219,18 +236,22 @@ def _reachability(scenario: Scenario, grid: Grid) -> Iterator[Finding]:
     home = {name: region_location(grid, region) for name, region in regions.items()}
     for name, agent in scenario.agents.items():
         start = grid.location_at(*agent.start[:2])
-        for region in sorted(home.keys() & _atoms(agent)):
-            if grid.components[start] != grid.components[home[region]]:
-                yield Finding(
-                    ("agents", name, "task" if agent.automaton is None else "automaton"),
-                    f"region {region!r} can't be reached from the start"
-                    f" {_point(agent.start[:2])}: obstacles close every way",
-                )
+        for place, named in _named(agent):
+            for region in sorted(home.keys() & named):
+                if grid.components[start] != grid.components[home[region]]:
+                    yield Finding(
+                        ("agents", name, *place),
+                        f"region {region!r} can't be reached from the start"
+                        f" {_point(agent.start[:2])}: obstacles close every way",
+                    )
 
 
-def _atoms(agent: Agent) -> frozenset[str]:
-    task = task_of(agent)
-    return frozenset(task.atoms if isinstance(task, BuchiAutomaton) else atoms(task))
+def _named(agent: Agent) -> Iterator[tuple[Place, frozenset[str]]]:
+    """Yield the atoms of each hard task."""
+    for place, text in _hard_tasks(agent):
+        yield place, frozenset(atoms(parse(text)))
+    if agent.automaton is not None:
+        yield ("automaton",), frozenset(read_automaton(agent.automaton).atoms)
 
 
 def _covered(grid: Grid, x_m: float, y_m: float) -> bool:

@@ -1,7 +1,7 @@
 """The scenario's fields, their types and ranges, one class per section of the file.
 
 ``Scenario`` holds ``Workspace`` (with ``Region``), ``Communication``, ``Drive``, ``Noise`` and
-``Agent`` (with ``DriveOverride``). What fields mean together is checked in ``checks``.
+``Agent`` (with ``DriveOverride`` and ``Soft``). What fields mean together is checked in ``checks``.
 """
 
 from typing import Annotated, Final
@@ -11,6 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field
 __all__ = [
     "MAX_AGENTS",
     "MAX_OBSTACLES",
+    "MAX_TASKS",
     "Agent",
     "Communication",
     "Drive",
@@ -18,12 +19,14 @@ __all__ = [
     "Noise",
     "Region",
     "Scenario",
+    "Soft",
     "Workspace",
 ]
 
 MAX_AGENTS: Final = 1000
 MAX_OBSTACLES: Final = 5000
 MAX_REGIONS: Final = 1000
+MAX_TASKS: Final = 100
 
 # Far beyond any plant, and small enough that no product of two overflows.
 _HUGE: Final = 1e9
@@ -33,6 +36,8 @@ Positive = Annotated[float, Field(gt=0.0, le=_HUGE)]
 # Slower agents would take longer than any run for a single cell.
 Speed = Annotated[float, Field(ge=1e-3, le=1e3)]
 NotNegative = Annotated[float, Field(ge=0.0, le=_HUGE)]
+# A day and more for one atom is beyond any detour, and sums of such prices are exact.
+Price = Annotated[float, Field(ge=0.0, le=1e5)]
 Share = Annotated[float, Field(ge=0.0, le=1.0)]
 # Valid as a ROS namespace token and as an atom.
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*$", max_length=60)]
@@ -94,17 +99,38 @@ class Noise(_Section):
     angular: Share = 0.0
 
 
-class Agent(_Section):
-    """Where an agent starts (x, y, yaw), its task, and what it has different from the team.
+class Soft(_Section):
+    """A task to be satisfied as much as possible, and the price of each atom that violates it."""
 
-    The task is a formula, or the text of an automaton in HOA v1.
+    task: str
+    weight_s: Price
+
+
+class Agent(_Section):
+    """Where an agent starts (x, y, yaw), its tasks, and what it has different from the team.
+
+    The task and each of the tasks must be satisfied, all of them together. An automaton, as text
+    in HOA v1, may be given in place of both.
     """
 
     start: tuple[Number, Number, Number]
     task: str | None = None
     automaton: str | None = None
+    tasks: Annotated[tuple[str, ...], Field(max_length=MAX_TASKS)] = ()
+    soft: Soft | None = None
     motion: DriveOverride = DriveOverride()
     actions: dict[Name, NotNegative] = {}
+
+    @property
+    def hard_tasks(self) -> tuple[str, ...]:
+        """The task and the tasks, those that there are."""
+        return self.tasks if self.task is None else (self.task, *self.tasks)
+
+    @property
+    def whole_task(self) -> str:
+        """All that must be satisfied, as one formula; ``""`` beside an automaton."""
+        parts = self.hard_tasks
+        return parts[0] if len(parts) == 1 else " & ".join(f"({part})" for part in parts)
 
 
 class Scenario(_Section):

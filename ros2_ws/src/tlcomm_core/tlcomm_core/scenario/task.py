@@ -8,7 +8,7 @@
 from functools import lru_cache
 from typing import Final
 
-from tlcomm_core.ltl import BuchiAutomaton, Formula, parse, read_hoa
+from tlcomm_core.ltl import BuchiAutomaton, Formula, conjunction, parse, read_hoa
 from tlcomm_core.scenario.model import Agent
 
 __all__ = ["Task", "read_automaton", "task_of"]
@@ -23,8 +23,7 @@ def task_of(agent: Agent) -> Task:
     """Return the task of an agent of a checked scenario."""
     if agent.automaton is not None:
         return read_automaton(agent.automaton)
-    assert agent.task is not None, "checks have refused agents without a task"
-    return parse(agent.task)
+    return conjunction([parse(text) for text in agent.hard_tasks])
 
 
 @lru_cache(maxsize=_KEPT)

@@ -80,7 +80,9 @@ def audit_task(
     # What holds before the first letter, or where the agent started, needs no step.
     times_s = [0.0, 0.0, *(record.stamp_ns * 1e-9 for record in steps)]
     progress = follow(task_of(own), word)
-    part = None if own.task is None else recurring_part(read_formula(own.task))
+    part = None
+    if own.automaton is None:
+        part = recurring_part(read_formula(own.whole_task))
     ends = progress.passes if part is None else count_fulfilled(part, word)
     # A step claims what it does; the start claims nothing.
     satisfied_s = None if ends is None else [times_s[end + 1] for end in ends if end]

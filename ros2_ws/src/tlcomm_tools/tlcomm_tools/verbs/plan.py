@@ -10,8 +10,9 @@ from typing import Any, Final
 from tlcomm_core.agent.member import local_plan
 from tlcomm_core.errors import InputError
 from tlcomm_core.planning.lasso import Objective
-from tlcomm_core.planning.plan import PlanStep
+from tlcomm_core.planning.plan import LocalPlan, PlanStep
 from tlcomm_core.scenario.loader import load_scenario
+from tlcomm_core.scenario.model import Soft
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.workspace.travel import TravelTimes
 from tlcomm_tools.status import Status
@@ -58,13 +59,15 @@ def run(options: Namespace) -> Status:
 
 
 def _plan(name: str, site: Site, objective: Objective) -> dict[str, Any]:
+    agent = site.scenario.agents[name]
     begun_s = time.perf_counter()
     travel = TravelTimes(site.grid, site.motion_of(name))
     plan = local_plan(name, site, travel, objective)
     planning_wall_s = time.perf_counter() - begun_s
     stem, loop = plan.word
     return {
-        "task": site.scenario.agents[name].task,
+        "task": agent.whole_task or None,
+        "soft": None if agent.soft is None else _soft(agent.soft, plan),
         "prefix": [_step(step, site) for step in plan.prefix],
         "suffix": [_step(step, site) for step in plan.suffix],
         "prefix_s": plan.prefix_s,
@@ -77,6 +80,22 @@ def _plan(name: str, site: Site, objective: Objective) -> dict[str, Any]:
     }
 
 
+def _soft(soft: Soft, plan: LocalPlan) -> dict[str, Any]:
+    """Return the soft task and how a plan violates it; figures are ``None`` if it is ignored."""
+    figures = {
+        "prefix_violation": plan.prefix_violation,
+        "prefix_price_s": plan.prefix_price_s,
+        "suffix_violation": plan.suffix_violation,
+        "suffix_price_s": plan.suffix_price_s,
+    }
+    return {
+        "task": soft.task,
+        "weight_s": soft.weight_s,
+        "start_wants": list(plan.initial_wanted),
+        **(figures if plan.weight_s is not None else dict.fromkeys(figures)),
+    }
+
+
 def _step(step: PlanStep, site: Site) -> dict[str, Any]:
     return {
         "region": step.region,
@@ -84,6 +103,7 @@ def _step(step: PlanStep, site: Site) -> dict[str, Any]:
         "at": site.grid.locations_m[step.location].tolist(),
         "duration": step.duration_s,
         "satisfies": step.satisfies,
+        "soft_wants": list(step.wanted),
     }
 
 
@@ -99,19 +119,42 @@ def _format_plan(name: str, plan: Mapping[str, Any]) -> str:
             "({:g}, {:g})".format(*step["at"]),
             f"{step['duration']:g}",
             "satisfied" if step["satisfies"] else "",
+            " ".join(step["soft_wants"]),
         )
         for index, (part, step) in enumerate(steps)
     ]
-    header = ("step", "part", "region", "action", "at/m", "stays/s", "task")
+    header = ("step", "part", "region", "action", "at/m", "stays/s", "task", "soft task wants")
+    columns = len(header) - (plan["soft"] is None)
     return (
         f"{name}: {plan['task'] or 'the given automaton'}\n"
         f"  prefix {plan['prefix_s']:.2f} s and {plan['prefix_m']:.2f} m, "
         f"suffix {plan['suffix_s']:.2f} s and {plan['suffix_m']:.2f} m\n"
         f"  satisfied first at {plan['first_s']:.2f} s; "
         f"planned in {1e3 * plan['planning_wall_s']:.0f} ms\n"
-        f"{format_table(header, rows, left=5)}\n"
+        f"{_format_soft(plan['soft'])}"
+        f"{format_table(header[:columns], [row[:columns] for row in rows], left=5)}\n"
         f"{_format_word(plan['word'])}"
     )
+
+
+def _format_soft(soft: Mapping[str, Any] | None) -> str:
+    """Return lines on the soft task, if there is one."""
+    if soft is None:
+        return ""
+    if soft["suffix_violation"] is None:
+        return f"  soft task {soft['task']}: ignored, as its weight is 0\n"
+    wants = " ".join(soft["start_wants"])
+    return (
+        f"  soft task {soft['task']}, {soft['weight_s']:g} s per atom\n"
+        f"  violated by {_format_violation(soft, 'prefix')} in the prefix, "
+        f"{_format_violation(soft, 'suffix')} in each suffix\n"
+        + (f"  at the start the soft task wants {wants}\n" if wants else "")
+    )
+
+
+def _format_violation(soft: Mapping[str, Any], part: str) -> str:
+    count, price_s = soft[f"{part}_violation"], soft[f"{part}_price_s"]
+    return f"{count} atom{'s' * (count != 1)} ({price_s:.2f} s)"
 
 
 def _format_word(word: Mapping[str, Sequence[Sequence[str]]]) -> str:
