@@ -3,7 +3,14 @@
 import pytest
 
 from tlcomm_core.errors import LocalMisuseError
-from tlcomm_core.ltl import conflict, conjuncts, parse, smallest_conflict
+from tlcomm_core.ltl import (
+    conflict,
+    conjuncts,
+    contradiction,
+    known_conflict,
+    parse,
+    smallest_conflict,
+)
 
 
 @pytest.mark.parametrize(
@@ -70,3 +77,30 @@ def test_many_parts_are_left_to_deletion() -> None:
     found = smallest_conflict(parts, lambda chosen: questions.append(1) or len(chosen) < 40)
     assert found == tuple(parts)
     assert len(questions) == 40
+
+
+def test_a_conflict_beyond_the_limits_is_the_formula_itself() -> None:
+    """Parts whose automaton is too large aren't told apart."""
+    names = [f"a{index}" for index in range(12)]
+    many = f"{' & '.join(f'F {name}' for name in names)} & G (z -> {' | '.join(names)})"
+    formula = parse(f"{many} & (b & !b)")
+    assert known_conflict(formula) == (formula,)
+
+
+@pytest.mark.parametrize(
+    ("texts", "sentence"),
+    [
+        (["a & !a"], "'a & !a' contradicts itself: no word satisfies it"),
+        (
+            ["F a", "G !a"],
+            "'F a' and 'G !a' contradict each other: no word satisfies them all",
+        ),
+        (
+            ["a", "b", "!(a & b)"],
+            "'a', 'b' and '!(a & b)' contradict each other: no word satisfies them all",
+        ),
+    ],
+)
+def test_a_contradiction_is_one_sentence(texts: list[str], sentence: str) -> None:
+    """It quotes each part."""
+    assert contradiction([parse(text) for text in texts]) == sentence

@@ -43,3 +43,26 @@ def test_an_accepting_edge_on_no_cycle_is_passed_by() -> None:
     rows = "State: 0 [t] 1 {0} State: 1 [t] 1 [0] 2 State: 2 [!0] 2 {0} --END--"
     word = accepted_word(read_hoa(text + rows))
     assert word == LassoWord((frozenset(), frozenset("a")), (frozenset(),))
+
+
+@pytest.mark.parametrize(
+    ("stem", "loop", "shortened"),
+    [
+        ("", "abab", ("", "ab")),
+        ("ab", "ab", ("", "ab")),
+        ("cab", "dab", ("c", "abd")),
+        ("b", "ab", ("", "ba")),
+        ("a", "aba", ("", "aab")),
+        ("aa", "a", ("", "a")),
+    ],
+)
+def test_a_word_is_told_with_the_fewest_letters(
+    stem: str, loop: str, shortened: tuple[str, str]
+) -> None:
+    """The loop goes round once and begins as early as it can."""
+
+    def letters(text: str) -> tuple[frozenset[str], ...]:
+        return tuple(map(frozenset, text))
+
+    word = LassoWord(letters(stem), letters(loop)).shortened()
+    assert (word.stem, word.loop) == tuple(map(letters, shortened))

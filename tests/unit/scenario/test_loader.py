@@ -177,6 +177,8 @@ BAD = [
      "agents.two.soft.task: unknown region or action 'c'"),
     ("    motion: {linear", "    soft: {task: G (!a, weight_s: 1}\n    motion: {linear", 21,
      "agents.two.soft.task: column 6"),
+    ("    motion: {linear", "    soft: {task: G !a, weigth_s: 1}\n    motion: {linear", 21,
+     "agents.two.soft.weigth_s: unknown field; did you mean 'weight_s'?"),
     ("    motion: {linear", "    soft: {task: G !a}\n    motion: {linear", 21,
      "agents.two.soft.weight_s: missing"),
     ("    motion: {linear", "    soft: {task: G !a, weight_s: -1}\n    motion: {linear", 21,

@@ -1,10 +1,11 @@
 """One agent as a shell holds it: brain and radio, on integer nanoseconds.
 
-``Member``      the same in one process and over ROS
-``create``      a member from a scenario
-``team_of``     what all its members know
-``local_plan``  an agent's plan for its task
-``check_tasks``  whether all agents have one
+``Member``          the same in one process and over ROS
+``create``          a member from a scenario
+``team_of``         what all its members know
+``local_plan``      an agent's plan for its task
+``explained_plan``  the same beside what else there is
+``check_tasks``     whether all agents have one
 """
 
 import math
@@ -19,11 +20,12 @@ from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.geometry import Pose
 from tlcomm_core.ltl import parse
+from tlcomm_core.planning.explanation import Explanation, explain_plan
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.planning.relaxation import SoftTask, soft_task
 from tlcomm_core.planning.synthesis import plan_task
-from tlcomm_core.planning.transition_system import build
+from tlcomm_core.planning.transition_system import TransitionSystem, build
 from tlcomm_core.protocol.actions import CountIgnored
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.protocol.negotiation import Phase
@@ -34,7 +36,7 @@ from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import TravelTimes
 
-__all__ = ["Member", "check_tasks", "create", "local_plan", "team_of"]
+__all__ = ["Member", "check_tasks", "create", "explained_plan", "local_plan", "team_of"]
 
 # What a periodic controller may lose at the end of a turn or a straight: the rest of its period
 # and a late timer.
@@ -116,19 +118,38 @@ def local_plan(
     Raises:
         PlanningError: there is none; the message says whose.
     """
-    system = build(
+    system, soft = _system(name, site, travel), _soft_task(name, site)
+    agent = site.scenario.agents[name]
+    try:
+        return plan_task(task_of(agent), system, objective, soft)
+    except PlanningError as error:
+        place = "tasks" if agent.tasks else "task" if agent.automaton is None else "automaton"
+        raise type(error)(f"agents.{name}.{place}: {error}") from error
+
+
+def explained_plan(
+    name: str, site: Site, travel: TravelTimes, objective: Objective = SUFFIX_FIRST
+) -> Explanation:
+    """Return an agent's optimal local plan beside the best ones without a part of it.
+
+    Args:
+        name: of an agent that has a plan.
+        site: the scenario.
+        travel: as for ``local_plan``.
+        objective: as for ``local_plan``.
+    """
+    system, soft = _system(name, site, travel), _soft_task(name, site)
+    return explain_plan(task_of(site.scenario.agents[name]), system, objective, soft)
+
+
+def _system(name: str, site: Site, travel: TravelTimes) -> TransitionSystem:
+    return build(
         travel,
         site.start_of(name),
         site.region_location,
         site.regions_at,
         site.action_durations(name),
     )
-    agent, soft = site.scenario.agents[name], _soft_task(name, site)
-    try:
-        return plan_task(task_of(agent), system, objective, soft)
-    except PlanningError as error:
-        place = "tasks" if agent.tasks else "task" if agent.automaton is None else "automaton"
-        raise type(error)(f"agents.{name}.{place}: {error}") from error
 
 
 def _soft_task(name: str, site: Site) -> SoftTask | None:

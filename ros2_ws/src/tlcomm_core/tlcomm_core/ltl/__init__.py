@@ -6,7 +6,8 @@
 - ``translate``                   the Büchi automaton that planning uses
 - ``restarted``, ``good_prefix_automaton``, ``tableau_automaton``   its constructions
 - ``BuchiAutomaton``, ``GoodPrefixAutomaton``, ``Construction``, ``Transition``, ``Guard``, ``Cube``
-- ``conflict``, ``conjuncts``     which parts of a formula exclude each other
+- ``conflict``, ``known_conflict``, ``conjuncts``, ``contradiction``   parts that exclude each other
+- ``profile``, ``Profile``, ``OpenWord``, ``TemporalClass``   what a formula is, with words as proof
 - ``Monitor``, ``Verdict``        what a finite part of a word says about a formula
 - ``RunMonitor``                 the same for an automaton
 - ``LassoWord``, ``accepted_word``   endless words as proof
@@ -15,7 +16,14 @@
 """
 
 from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction, Transition
-from tlcomm_core.ltl.conflict import conflict, conjunction, conjuncts, smallest_conflict
+from tlcomm_core.ltl.conflict import (
+    conflict,
+    conjunction,
+    conjuncts,
+    contradiction,
+    known_conflict,
+    smallest_conflict,
+)
 from tlcomm_core.ltl.dot import to_dot
 from tlcomm_core.ltl.formula import (
     FALSE,
@@ -34,6 +42,7 @@ from tlcomm_core.ltl.hoa_reader import read_hoa
 from tlcomm_core.ltl.monitor import Monitor, Verdict
 from tlcomm_core.ltl.normal_form import is_co_safe, negation_normal_form, recurring
 from tlcomm_core.ltl.parser import MAX_LENGTH, MAX_NESTING, explain, parse
+from tlcomm_core.ltl.profile import OpenWord, Profile, TemporalClass, profile
 from tlcomm_core.ltl.run_monitor import RunMonitor
 from tlcomm_core.ltl.tableau import tableau_automaton
 from tlcomm_core.ltl.translation import translate
@@ -52,8 +61,11 @@ __all__ = [
     "Guard",
     "LassoWord",
     "Monitor",
+    "OpenWord",
     "Operator",
+    "Profile",
     "RunMonitor",
+    "TemporalClass",
     "Transition",
     "Verdict",
     "accepted_word",
@@ -62,11 +74,14 @@ __all__ = [
     "conflict",
     "conjunction",
     "conjuncts",
+    "contradiction",
     "explain",
     "good_prefix_automaton",
     "is_co_safe",
+    "known_conflict",
     "negation_normal_form",
     "parse",
+    "profile",
     "read_hoa",
     "recurring",
     "restarted",

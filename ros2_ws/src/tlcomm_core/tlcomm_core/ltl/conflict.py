@@ -2,6 +2,8 @@
 
 - ``conjuncts``          the parts that a formula asks for all of
 - ``conflict``           a smallest set of parts that no word satisfies together
+- ``known_conflict``     the same, or the formula itself where the search would be too large
+- ``contradiction``      the same in a sentence
 - ``smallest_conflict``  the same for any notion of "possible together"
 - ``conjunction``        of several formulas
 """
@@ -10,11 +12,18 @@ from collections.abc import Callable, Sequence
 from itertools import combinations, islice
 from typing import Final
 
-from tlcomm_core.errors import LocalMisuseError
+from tlcomm_core.errors import IntractableTaskError, LocalMisuseError
 from tlcomm_core.ltl.formula import TRUE, Formula, Operator, atoms
 from tlcomm_core.ltl.translation import translate
 
-__all__ = ["conflict", "conjunction", "conjuncts", "smallest_conflict"]
+__all__ = [
+    "conflict",
+    "conjunction",
+    "conjuncts",
+    "contradiction",
+    "known_conflict",
+    "smallest_conflict",
+]
 
 # How many sets are tried in search of one with fewer members than a minimal one has.
 _MOST_TRIALS: Final = 200
@@ -61,6 +70,26 @@ def conflict(formula: Formula) -> tuple[Formula, ...]:
             return smallest_conflict(group, _is_satisfiable)
     message = f"{formula!r} is satisfiable"
     raise LocalMisuseError(message)
+
+
+def known_conflict(formula: Formula) -> tuple[Formula, ...]:
+    """Return a smallest set of conjuncts of an unsatisfiable formula that exclude each other.
+
+    It is the formula itself if the automaton of some set of its conjuncts is too large.
+    """
+    try:
+        return conflict(formula)
+    except IntractableTaskError:
+        return (formula,)
+
+
+def contradiction(parts: Sequence[Formula]) -> str:
+    """Return, as a sentence, that some formulas exclude each other."""
+    quoted = [repr(str(part)) for part in parts]
+    if len(quoted) == 1:
+        return f"{quoted[0]} contradicts itself: no word satisfies it"
+    listed = f"{', '.join(quoted[:-1])} and {quoted[-1]}"
+    return f"{listed} contradict each other: no word satisfies them all"
 
 
 def smallest_conflict(

@@ -36,6 +36,19 @@ class LassoWord:
         parts = [word_text(self.stem)] if self.stem else []
         return " ; ".join([*parts, f"({word_text(self.loop)}) for ever"])
 
+    def shortened(self) -> "LassoWord":
+        """Return the same word, told with the fewest letters.
+
+        The loop goes round once, and begins as early as it can.
+        """
+        stem, loop = self.stem, self.loop
+        lengths = range(1, len(loop) + 1)
+        once = next(n for n in lengths if loop == loop[:n] * (len(loop) // n))
+        loop = loop[:once]
+        while stem and stem[-1] == loop[-1]:
+            stem, loop = stem[:-1], (loop[-1], *loop[:-1])
+        return LassoWord(stem, loop)
+
 
 def word_text(letters: Iterable[Letter]) -> str:
     """Return letters as text: atoms joined by ``&``, ``–`` where none is true."""

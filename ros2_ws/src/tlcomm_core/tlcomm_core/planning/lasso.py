@@ -1,6 +1,6 @@
 """The optimal accepting lasso of a product.
 
-- ``Objective``      what is to be least
+- ``Objective``      what is to be least, exactly: ``Key``
 - ``SUFFIX_FIRST``   the paper's
 - ``Key``            a lasso's value by an objective
 - ``Lasso``          edges of the prefix and of the suffix

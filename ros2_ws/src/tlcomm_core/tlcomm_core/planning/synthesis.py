@@ -1,16 +1,17 @@
 """From a task to the optimal local plan, or to the reason why there is none.
 
-- ``plan_task``   the plan for a formula, or for an automaton
+- ``plan_task``     the plan for a formula, or for an automaton
+- ``told``          the plan that a lasso is
+- ``region_named``  what a place is called
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 
 import numpy as np
 
-from tlcomm_core.errors import PlanningError, UnreachableTaskError, UnsatisfiableTaskError
-from tlcomm_core.ltl import BuchiAutomaton, Cube, Formula, Guard, translate
+from tlcomm_core.ltl import BuchiAutomaton, Formula, translate
 from tlcomm_core.planning import product as products
+from tlcomm_core.planning.failure import failure
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Lasso, Objective, optimal_lasso
 from tlcomm_core.planning.on_the_fly import essential_part, is_large
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
@@ -18,7 +19,7 @@ from tlcomm_core.planning.product import Product
 from tlcomm_core.planning.relaxation import Move, SoftTask
 from tlcomm_core.planning.transition_system import TransitionSystem
 
-__all__ = ["plan_task"]
+__all__ = ["plan_task", "region_named", "told"]
 
 
 def plan_task(
@@ -57,21 +58,32 @@ def plan_task(
     product = products.build(part, automaton, soft)
     lasso = optimal_lasso(product, objective)
     if lasso is None:
-        raise _failure(task, automaton, system)
+        raise failure(task, automaton, system)
+    return told(lasso, product, part, automaton, soft)
+
+
+def told(
+    lasso: Lasso,
+    product: Product,
+    system: TransitionSystem,
+    automaton: BuchiAutomaton,
+    soft: SoftTask | None = None,
+) -> LocalPlan:
+    """Return the plan that a lasso of the product is."""
     entry = product.source[[*lasso.prefix, *lasso.suffix][0]]
     lasso = _shortened(lasso, product)
-    prefix = _steps(lasso.prefix, product, part, automaton)
-    suffix = _steps(lasso.suffix, product, part, automaton)
+    prefix = _steps(lasso.prefix, product, system, automaton)
+    suffix = _steps(lasso.suffix, product, system, automaton)
     first = next(place for place, step in enumerate(suffix) if step.satisfies)
     start = np.searchsorted(product.initial, entry)
     return LocalPlan(
         prefix=prefix,
         suffix=suffix,
-        prefix_s=_total_s(lasso.prefix, product, part),
-        suffix_s=_total_s(lasso.suffix, product, part),
-        first_s=_total_s((*lasso.prefix, *lasso.suffix[: first + 1]), product, part),
-        prefix_m=_total_m(lasso.prefix, product, part),
-        suffix_m=_total_m(lasso.suffix, product, part),
+        prefix_s=_total_s(lasso.prefix, product, system),
+        suffix_s=_total_s(lasso.suffix, product, system),
+        first_s=_total_s((*lasso.prefix, *lasso.suffix[: first + 1]), product, system),
+        prefix_m=_total_m(lasso.prefix, product, system),
+        suffix_m=_total_m(lasso.suffix, product, system),
         initial_label=system.labels[system.initial_label],
         initial_wanted=product.reading.moves[product.reading.initial[start]].wanted,
         weight_s=None if soft is None else soft.weight_s,
@@ -104,7 +116,7 @@ def _step(
     location = system.states[system.target[step]].location
     move = product.reading.moves[product.reading.edge[edge]]
     return PlanStep(
-        region=_region(system.regions[location], automaton.atoms),
+        region=region_named(system.regions[location], automaton.atoms),
         location=location,
         action=system.actions[system.action[step]],
         duration_s=float(system.stay_s[step]),
@@ -114,8 +126,8 @@ def _step(
     )
 
 
-def _region(names: Sequence[str], atoms: Sequence[str]) -> str:
-    """Return the first of a place's regions that the task names, else the first, else ""."""
+def region_named(names: Sequence[str], atoms: Sequence[str]) -> str:
+    """Return the first of a place's regions that the task names, else the first, else ``""``."""
     return next((name for name in names if name in atoms), names[0] if names else "")
 
 
@@ -128,44 +140,3 @@ def _total_s(edges: Sequence[int], product: Product, system: TransitionSystem) -
 def _total_m(edges: Sequence[int], product: Product, system: TransitionSystem) -> float:
     """Return the length of the way of some edges."""
     return float(system.drive_m[product.step[list(edges)]].sum())
-
-
-def _failure(
-    task: Formula | BuchiAutomaton, automaton: BuchiAutomaton, system: TransitionSystem
-) -> PlanningError:
-    """Return the error that says why no run is accepting."""
-    named = f"task {str(task)!r}" if isinstance(task, Formula) else "the automaton"
-    if automaton.is_empty():
-        return UnsatisfiableTaskError(f"{named} contradicts itself: no word fits it")
-    possible = frozenset[str]().union(*system.labels)
-    never = [atom for atom in automaton.atoms if atom not in possible]
-    if _without(automaton, never).is_empty():
-        each = [atom for atom in never if _without(automaton, [atom]).is_empty()]
-        names = ", ".join(repr(atom) for atom in each or never)
-        return UnreachableTaskError(
-            f"{named} can't be done from the start: never true there: {names}"
-        )
-    if _limited_to(automaton, system.labels).is_empty():
-        reason = "what it wants true or false together never is, in any region that can be reached"
-    else:
-        reason = "no way through the regions visits them in an order that it allows"
-    return UnreachableTaskError(f"{named} can't be done from the start: {reason}")
-
-
-def _without(automaton: BuchiAutomaton, never: Sequence[str]) -> BuchiAutomaton:
-    """Return the automaton for words in which some atoms are always false."""
-    return _with_cubes(automaton, lambda cube: cube.required.isdisjoint(never))
-
-
-def _limited_to(automaton: BuchiAutomaton, labels: Sequence[frozenset[str]]) -> BuchiAutomaton:
-    """Return the automaton for words of some labels."""
-    return _with_cubes(automaton, lambda cube: any(cube.holds(label) for label in labels))
-
-
-def _with_cubes(automaton: BuchiAutomaton, keeps: Callable[[Cube], bool]) -> BuchiAutomaton:
-    """Return the automaton with some cubes of its guards alone."""
-    transitions = tuple(
-        tuple(replace(edge, guard=Guard(tuple(filter(keeps, edge.guard.cubes)))) for edge in edges)
-        for edges in automaton.transitions
-    )
-    return replace(automaton, transitions=transitions)

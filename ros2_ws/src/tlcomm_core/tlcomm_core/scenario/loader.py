@@ -12,6 +12,7 @@ expected; the first in the file if there are several.
 import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from types import UnionType
 from typing import Any, Final, TypeVar, get_args
 
 import yaml
@@ -225,6 +226,8 @@ def _fields(root: type[BaseModel], place: Place) -> frozenset[str]:
         is_model = isinstance(section, type) and issubclass(section, BaseModel)
         # Between sections there are only mappings from names to sections.
         section = section.model_fields[part].annotation if is_model else get_args(section)[-1]
+        if isinstance(section, UnionType):
+            section, _ = get_args(section)  # or None
     named = frozenset(section.model_fields)
     return named | {"map"} if section is Workspace else named
 

@@ -1,4 +1,4 @@
-"""Show each agent's local plan: prefix, suffix, and what they take."""
+"""Show each agent's local plan: prefix, suffix, what they take, and why none is better."""
 
 import textwrap
 import time
@@ -7,8 +7,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
-from tlcomm_core.agent.member import local_plan
+from tlcomm_core.agent.member import explained_plan, local_plan
 from tlcomm_core.errors import InputError
+from tlcomm_core.planning.explanation import Explanation, Rival
 from tlcomm_core.planning.lasso import Objective
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
 from tlcomm_core.scenario.loader import load_scenario
@@ -16,7 +17,7 @@ from tlcomm_core.scenario.model import Soft
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.workspace.travel import TravelTimes
 from tlcomm_tools.status import Status
-from tlcomm_tools.table import format_table
+from tlcomm_tools.table import format_number, format_table
 from tlcomm_tools.verbs.options import positive_fraction, print_json
 
 __all__ = ["EXAMPLE", "add_arguments", "run"]
@@ -37,6 +38,11 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="minimise the first satisfaction's time + G × the suffix's "
         "(default: the suffix's time, then the first satisfaction's)",
     )
+    parser.add_argument(
+        "--explain",
+        action="store_true",
+        help="also tell what the best plans cost that do without a part of it",
+    )
 
 
 def run(options: Namespace) -> Status:
@@ -50,7 +56,7 @@ def run(options: Namespace) -> Status:
             raise InputError(f"--agent: no agent {options.agent!r} (the agents are {known})")
         names = [options.agent]
     objective = Objective(options.gamma)
-    plans = {name: _plan(name, site, objective) for name in names}
+    plans = {name: _plan(name, site, objective, is_explained=options.explain) for name in names}
     if options.json:
         print_json({"format": "tlcomm-plan/1", "scenario": scenario.name, "agents": plans})
     else:
@@ -58,14 +64,14 @@ def run(options: Namespace) -> Status:
     return Status.FINE
 
 
-def _plan(name: str, site: Site, objective: Objective) -> dict[str, Any]:
+def _plan(name: str, site: Site, objective: Objective, *, is_explained: bool) -> dict[str, Any]:
     agent = site.scenario.agents[name]
     begun_s = time.perf_counter()
     travel = TravelTimes(site.grid, site.motion_of(name))
     plan = local_plan(name, site, travel, objective)
     planning_wall_s = time.perf_counter() - begun_s
     stem, loop = plan.word
-    return {
+    told: dict[str, Any] = {
         "task": agent.whole_task or None,
         "soft": None if agent.soft is None else _soft(agent.soft, plan),
         "prefix": [_step(step, site) for step in plan.prefix],
@@ -77,6 +83,26 @@ def _plan(name: str, site: Site, objective: Objective) -> dict[str, Any]:
         "suffix_m": plan.suffix_m,
         "word": {"stem": list(map(sorted, stem)), "loop": list(map(sorted, loop))},
         "planning_wall_s": planning_wall_s,
+    }
+    if is_explained:
+        told["explanation"] = _explanation(explained_plan(name, site, travel, objective))
+    return told
+
+
+def _explanation(explanation: Explanation) -> dict[str, Any]:
+    second_best = explanation.second_best
+    return {
+        "second_best": None if second_best is None else _rival(second_best),
+        "rivals": list(map(_rival, explanation.rivals)),
+    }
+
+
+def _rival(rival: Rival) -> dict[str, Any]:
+    move, plan = rival.without, rival.plan
+    return {
+        "without": {"from": move.source, "to": move.target, "action": move.action},
+        "suffix_s": None if plan is None else plan.suffix_s,
+        "first_s": None if plan is None else plan.first_s,
     }
 
 
@@ -134,6 +160,7 @@ def _format_plan(name: str, plan: Mapping[str, Any]) -> str:
         f"{_format_soft(plan['soft'])}"
         f"{format_table(header[:columns], [row[:columns] for row in rows], left=5)}\n"
         f"{_format_word(plan['word'])}"
+        f"{_format_explanation(plan)}"
     )
 
 
@@ -155,6 +182,42 @@ def _format_soft(soft: Mapping[str, Any] | None) -> str:
 def _format_violation(soft: Mapping[str, Any], part: str) -> str:
     count, price_s = soft[f"{part}_violation"], soft[f"{part}_price_s"]
     return f"{count} atom{'s' * (count != 1)} ({price_s:.2f} s)"
+
+
+def _format_explanation(plan: Mapping[str, Any]) -> str:
+    """Return why the suffix is the best, if that was asked for."""
+    explanation = plan.get("explanation")
+    if explanation is None:
+        return ""
+    rivals = explanation["rivals"]
+    rows = [
+        (
+            _format_move(rival["without"]),
+            format_number(rival["suffix_s"], 2),
+            format_number(rival["first_s"], 2),
+            "second best" if rival == explanation["second_best"] else "",
+        )
+        for rival in rivals
+    ]
+    header = ("suffix without", "suffix/s", "first/s", "")
+    return f"\n  why   {_reason(plan)}\n{format_table(header, rows)}"
+
+
+def _reason(plan: Mapping[str, Any]) -> str:
+    second_best = plan["explanation"]["second_best"]
+    if second_best is None:
+        return "it is the only suffix: each of its moves is needed"
+    return (
+        f"the second best does without {_format_move(second_best['without'])}: "
+        f"{second_best['suffix_s']:.2f} s against {plan['suffix_s']:.2f} s"
+    )
+
+
+def _format_move(move: Mapping[str, Any]) -> str:
+    source, target = (move[end] or "start" for end in ("from", "to"))
+    if source != target:
+        return f"{source} → {target}"
+    return f"{target} {move['action'] or 'idle'}"
 
 
 def _format_word(word: Mapping[str, Sequence[Sequence[str]]]) -> str:

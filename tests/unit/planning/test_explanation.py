@@ -1,0 +1,65 @@
+"""Why a plan is optimal, in the small plant."""
+
+from fractions import Fraction
+
+import pytest
+
+from support.small_plant import SmallPlant
+from tlcomm_core.errors import UnreachableTaskError
+from tlcomm_core.ltl import parse
+from tlcomm_core.planning.explanation import Move, explain_plan
+from tlcomm_core.planning.lasso import Objective
+from tlcomm_core.planning.synthesis import plan_task
+
+# Without the hall, which lies on the way, so that passing it costs nothing.
+SYSTEM = SmallPlant(("p", "r", "m", "vault")).system()
+TASK = parse("G F (p & collect & F (r & unload))")
+
+
+def test_the_plan_is_the_one_that_planning_finds() -> None:
+    """By either objective."""
+    for objective in (Objective(), Objective(Fraction(2))):
+        assert explain_plan(TASK, SYSTEM, objective).plan == plan_task(TASK, SYSTEM, objective)
+
+
+def test_what_the_task_asks_for_has_no_rival() -> None:
+    """Without an action that it names there is no plan; without a way there is a dearer one."""
+    found = explain_plan(TASK, SYSTEM)
+    rivals = {rival.without: rival.plan for rival in found.rivals}
+    assert rivals[Move("p", "p", "collect")] is None
+    assert rivals[Move("r", "r", "unload")] is None
+    detour = rivals[Move("p", "r", None)]
+    assert detour is not None
+    assert detour.suffix_s > found.plan.suffix_s
+
+
+def test_the_second_best_is_the_best_rival() -> None:
+    """None takes less time, and it takes more than the optimum here."""
+    found = explain_plan(TASK, SYSTEM)
+    assert found.second_best is not None
+    assert found.second_best.plan is not None
+    others = [rival.plan.suffix_s for rival in found.rivals if rival.plan]
+    assert found.second_best.plan.suffix_s == min(others) > found.plan.suffix_s
+
+
+def test_a_move_may_stay_in_the_prefix() -> None:
+    """Only suffixes do without it: a task that is to collect at once still has its rivals."""
+    found = explain_plan(parse("F (p & collect) & G F (p | m)"), SYSTEM)
+    (rival,) = found.rivals
+    assert rival.plan is not None
+    assert any(step.action == "collect" for step in rival.plan.prefix)
+
+
+def test_the_only_suffix_has_no_second_best() -> None:
+    """Collecting at p for good is one move."""
+    found = explain_plan(parse("F G (p & collect)"), SYSTEM)
+    assert [(rival.without, rival.plan) for rival in found.rivals] == [
+        (Move("p", "p", "collect"), None)
+    ]
+    assert found.second_best is None
+
+
+def test_a_task_without_a_plan_has_nothing_to_explain() -> None:
+    """Why there is none is told by planning."""
+    with pytest.raises(UnreachableTaskError, match="has no plan"):
+        explain_plan(parse("G F vault"), SYSTEM)
