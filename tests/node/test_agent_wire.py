@@ -30,6 +30,7 @@ UINT32 = st.integers(0, 2**32 - 1)
 STAMPS_NS = st.integers(0, 2**31 * 10**9 - 1)
 STRATEGIES = st.builds(Strategy, NAMES, FLOATS, FLOATS, UINT32, FLOATS, FLOATS)
 STOPS = st.builds(PlannedStop, UINT32, FLOATS, FLOATS, FLOATS, FLOATS)
+NAME_TUPLES = st.lists(NAMES, max_size=4).map(tuple)
 OFFERS = st.builds(
     MemberOffer,
     NAMES,
@@ -40,8 +41,8 @@ OFFERS = st.builds(
     FLOATS,
     FLOATS,
     st.lists(STOPS, max_size=4).map(tuple),
+    NAME_TUPLES,
 )
-NAME_TUPLES = st.lists(NAMES, max_size=4).map(tuple)
 MESSAGES = st.one_of(
     st.builds(PlanOffer, NAMES, UINT32, NAME_TUPLES, st.lists(OFFERS, max_size=3).map(tuple)),
     st.builds(
@@ -135,7 +136,7 @@ def test_neighbours(edges: set[tuple[int, int]]) -> None:
 def offer_message() -> RosMessage:
     """Return a well-formed plan offer with one stop."""
     stop = PlannedStop(1, 2.0, 3.0, 0.5, 4.0)
-    offer = MemberOffer("b", 1.0, 2.0, 3.0, 0.0, 1.0, 1.5, (stop,))
+    offer = MemberOffer("b", 1.0, 2.0, 3.0, 0.0, 1.0, 1.5, (stop,), ("danger",))
     return wire.encode_message(PlanOffer("b", 1, ("b",), (offer,)), 0)
 
 
@@ -171,6 +172,8 @@ def assign(message: RosMessage, path: str, value: object) -> RosMessage:
         (offer_message(), "offers.0.stop_x", [math.nan]),
         (offer_message(), "offers.0.finish_offset", [-math.inf]),
         (offer_message(), "offers.0.stop_y", [1.0, 2.0]),
+        (offer_message(), "offers.0.forbidden", [""]),
+        (offer_message(), "offers.0.forbidden", ["a"] * 1001),
         (offer_message(), "offers.0.task_index", list(range(MAX_STOPS + 1))),
         (response_message(), "candidate", ""),
         (response_message(), "change", math.nan),

@@ -4,6 +4,7 @@ from random import Random
 
 import pytest
 
+from support.lasso_acceptance import accepts
 from support.lasso_semantics import holds
 from support.ltl_benchmarks import (
     DWYER,
@@ -12,8 +13,7 @@ from support.ltl_benchmarks import (
     random_formula,
     without_next,
 )
-from tlcomm_core.ltl import BuchiAutomaton, atoms, parse, tableau_automaton
-from tlcomm_core.ltl.automaton import strong_components
+from tlcomm_core.ltl import atoms, parse, tableau_automaton
 
 LITERATURE = (*DWYER, *ETESSAMI_HOLZMANN, *SOMENZI_BLOEM)
 Word = tuple[frozenset[str], ...]
@@ -23,29 +23,6 @@ def random_word(rng: Random, names: tuple[str, ...]) -> Word:
     """Return up to five letters."""
     return tuple(
         frozenset(name for name in names if rng.random() < 0.5) for _ in range(rng.randint(1, 5))
-    )
-
-
-def accepts(automaton: BuchiAutomaton, stem: Word, loop: Word) -> bool:
-    """Return whether an accepting edge lies on a cycle of the product with stem·loop^ω."""
-    word = [*stem, *loop]
-    number = {(automaton.initial, 0): 0}
-    pending = [(automaton.initial, 0)]
-    rows: list[list[tuple[int, bool]]] = []
-    for state, place in pending:
-        after = place + 1 if place + 1 < len(word) else len(stem)
-        rows.append([])
-        for target, accepting in automaton.successors(state, word[place]):
-            node = (target, after)
-            if node not in number:
-                number[node] = len(number)
-                pending.append(node)
-            rows[-1].append((number[node], accepting))
-    component = strong_components([[target for target, _ in row] for row in rows])
-    return any(
-        accepting and component[node] == component[target]
-        for node, row in enumerate(rows)
-        for target, accepting in row
     )
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from tlcomm_core.geometry import Pose
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
+from tlcomm_core.planning.repertoire import Condition
 from tlcomm_core.planning.transition_system import TransitionSystem, build
 from tlcomm_core.workspace.grid import Grid
 from tlcomm_core.workspace.travel import Motion, TravelTimes
@@ -52,12 +53,16 @@ class SmallPlant:
         )
 
     def system(
-        self, start: Pose = START, actions: Mapping[str, float] | None = None
+        self,
+        start: Pose = START,
+        actions: Mapping[str, float] | None = None,
+        conditions: Mapping[str, Condition] | None = None,
     ) -> TransitionSystem:
         """Return the transition system from a start."""
         locations = {name: self.location(name) for name in self.regions}
         durations_s = ACTIONS if actions is None else actions
-        return build(self.times, start, locations, self.regions_at, durations_s)
+        given = conditions or {}
+        return build(self.times, start, locations, self.regions_at, durations_s, given)
 
     def word(self, plan: LocalPlan, start: Pose = START) -> tuple[Word, Word]:
         """Return stem and loop of the word that a plan produces, the start's label first."""

@@ -2,8 +2,10 @@
 
 import pytest
 
+from support.danger_hall import danger_hall
 from support.hall import STARTS, hall, make_member
 from tlcomm_core.agent.actions import Action, CountIgnored, Drive, SendMessage
+from tlcomm_core.agent.avoidance import travel_of
 from tlcomm_core.agent.controller import Pacing
 from tlcomm_core.agent.member import Member, create, local_plan
 from tlcomm_core.errors import PlanningError, UnsatisfiableTaskError
@@ -139,6 +141,15 @@ def test_an_impossible_task_is_refused() -> None:
     site = Site.from_scenario(loads(text))
     with pytest.raises(PlanningError):
         create("one", site, Pacing.EVENT, Atlas(site.grid))
+
+
+def test_a_plan_keeps_the_conditions_of_actions() -> None:
+    """What is weighed in the east was loaded after the last time that anything was weighed."""
+    actions = "load: {duration_s: 2.0, at: [west]}, weigh: {duration_s: 1.0, after: [load]}"
+    site = Site.from_scenario(danger_hall("G F (east & weigh)", actions))
+    plan = local_plan("careful", site, travel_of("careful", site, Atlas(site.grid)))
+    acts = [(step.region, step.action) for step in plan.suffix if step.action is not None]
+    assert sorted(acts) == [("east", "weigh"), ("west", "load")]
 
 
 def _plan_with(fields: str) -> LocalPlan:

@@ -13,7 +13,11 @@ from tlcomm_core.protocol.team import Team
 from tlcomm_core.workspace.atlas import Atlas
 
 TEAM = Team(frozenset({"one", "two"}), 0.96, 30.0, 3.0)
-ATLAS = Atlas(hall(2).grid)
+GRID = hall(2).grid
+# A corner of the hall, as a region that may be avoided.
+CORNER_DISC = (6.0, 2.0, 0.8)
+CORNER = GRID.touched_by(*CORNER_DISC)
+ATLAS = Atlas(GRID, {"corner": CORNER_DISC})
 ROUNDS = MeetingRounds(ATLAS, TEAM, 0.0)
 
 
@@ -59,3 +63,22 @@ def test_an_unsound_offer_is_recognised(offer: MemberOffer) -> None:
     assert ROUNDS.is_sound(offer)
     assert not ROUNDS.is_sound(replace(offer, x_m=-5.0))
     assert not ROUNDS.is_sound(replace(offer, linear_mps=0.0))
+
+
+def test_what_a_member_avoids_is_closed_to_it_alone(offer: MemberOffer) -> None:
+    """Its arrivals in the corner are impossible, the other's aren't."""
+    careful = replace(offer, agent="two", avoided=("corner",))
+    assert ROUNDS.is_sound(careful)
+    bold_table, careful_table = ROUNDS.problem(1, 3.0, [offer, careful]).candidates
+    assert np.isinf(careful_table.arrival_s[:, CORNER]).all()
+    assert np.isfinite(bold_table.arrival_s[:, CORNER]).any()
+    assert np.isfinite(careful_table.arrival_s).any()
+
+
+def test_an_offer_that_contradicts_what_it_avoids_is_unsound(offer: MemberOffer) -> None:
+    """A region that nobody knows, or one that the member stands in."""
+    assert not ROUNDS.is_sound(replace(offer, avoided=("cellar",)))
+    x_m, y_m = GRID.locations_m[CORNER[0]].tolist()
+    inside = replace(offer, x_m=x_m, y_m=y_m)
+    assert ROUNDS.is_sound(inside)
+    assert not ROUNDS.is_sound(replace(inside, avoided=("corner",)))

@@ -1,7 +1,7 @@
-"""Smaller graphs: useless states, equal states, one mark."""
+"""Smaller graphs: useless states, equal states, superfluous edges."""
 
 from tlcomm_core.ltl.graph import Edge, Graph
-from tlcomm_core.ltl.reduction import degeneralized, reduced
+from tlcomm_core.ltl.reduction import reduced
 
 IF_A, IF_NOT_A = 0b01, 0b10
 
@@ -40,22 +40,3 @@ def test_superfluous_edges_go() -> None:
     """An edge with a stronger guard and fewer marks to the same state is dropped."""
     graph = Graph(((Edge(IF_A, 0, 0), Edge(0, 0, 1)),), 1)
     assert reduced(graph) == Graph(((Edge(0, 0, 1),),), 1)
-
-
-def test_one_mark_waits_for_all_in_turn() -> None:
-    """Two marks on different edges of one state need two states; both at once accept at once."""
-    graph = Graph(((Edge(IF_A, 0, 1), Edge(IF_NOT_A, 0, 2), Edge(0, 0, 0)),), 2)
-    assert degeneralized(graph) == Graph(
-        (
-            (Edge(IF_A, 1, 0), Edge(IF_NOT_A, 0, 0), Edge(0, 0, 0)),
-            (Edge(IF_A, 1, 0), Edge(IF_NOT_A, 0, 1), Edge(0, 1, 0)),
-        ),
-        1,
-    )
-    both = Graph(((Edge(IF_A, 0, 3),),), 2)
-    assert degeneralized(both) == Graph(((Edge(IF_A, 0, 1),),), 1)
-
-
-def test_without_marks_every_edge_on_a_cycle_accepts() -> None:
-    """A graph with nothing to wait for accepts all the time."""
-    assert degeneralized(Graph(((Edge(0, 0, 0),),), 0)) == Graph(((Edge(0, 0, 1),),), 1)

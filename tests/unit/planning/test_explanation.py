@@ -9,6 +9,7 @@ from tlcomm_core.errors import UnreachableTaskError
 from tlcomm_core.ltl import parse
 from tlcomm_core.planning.explanation import Move, explain_plan
 from tlcomm_core.planning.lasso import Objective
+from tlcomm_core.planning.relaxation import soft_task
 from tlcomm_core.planning.synthesis import plan_task
 
 # Without the hall, which lies on the way, so that passing it costs nothing.
@@ -63,3 +64,19 @@ def test_a_task_without_a_plan_has_nothing_to_explain() -> None:
     """Why there is none is told by planning."""
     with pytest.raises(UnreachableTaskError, match="has no plan"):
         explain_plan(parse("G F vault"), SYSTEM)
+
+
+def test_rivals_weigh_the_soft_task_too() -> None:
+    """With a soft task time and price count together, for each rival as for the plan."""
+    soft = soft_task(parse("G F (m & collect)"), 1.0)
+    found = explain_plan(TASK, SYSTEM, soft=soft)
+    assert found.plan == plan_task(TASK, SYSTEM, soft=soft)
+    plans = [found.plan, *(rival.plan for rival in found.rivals if rival.plan)]
+    costs_s = [plan.suffix_s + plan.suffix_price_s for plan in plans]
+    assert all(plan.weight_s == 1.0 for plan in plans)
+    assert any(plan.suffix_price_s > 0.0 for plan in plans)
+    assert found.second_best is not None
+    assert found.second_best.plan is not None
+    second_best = found.second_best.plan
+    assert second_best.suffix_s + second_best.suffix_price_s == pytest.approx(min(costs_s[1:]))
+    assert costs_s[0] <= min(costs_s[1:])

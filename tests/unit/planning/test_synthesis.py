@@ -131,3 +131,18 @@ def test_gamma_chooses_between_the_prefix_and_the_suffix() -> None:
     least = plan_task(formula, SYSTEM)
     assert small.first_s <= large.first_s
     assert least.suffix_s <= large.suffix_s <= small.suffix_s
+
+
+RESPONSES = " & ".join(f"G (a{i} -> F b{i})" for i in range(8))
+
+
+def test_more_responses_than_an_automaton_holds_can_be_planned_for() -> None:
+    """The letters of the plant are few, so that eight conjoined responses and a round fit."""
+    found = plan(f"{RESPONSES} & G (p -> F m) & G F p")
+    assert {step.region for step in found.suffix} == {"p", "m"}
+
+
+def test_a_part_of_too_many_that_cant_be_done_is_told() -> None:
+    """Where the whole automaton is too large, the plant's letters still tell the part."""
+    with pytest.raises(UnreachableTaskError, match=r"^'G F \(p & m\)' can't be done: 'p & m'"):
+        plan(f"{RESPONSES} & G F (p & m)")

@@ -53,3 +53,13 @@ def test_motion_and_start_are_the_agents_own() -> None:
     assert (motion.linear_mps, motion.angular_radps, motion.segment_allowance_s) == (1.0, 1.5, 0.05)
     assert SITE.start_of("one").yaw_rad == 1.0
     assert SITE.action_durations("one") == {"pick": 4.0}
+
+
+def test_regions_overlap_where_their_discs_share_a_point() -> None:
+    """Never with themselves."""
+    assert SITE.region_discs["b"] == (0.5, 0.25, 0.6)
+    assert SITE.regions_beside == {
+        "a": {"b"},
+        "b": {"a"},
+        "c": frozenset(),
+    }

@@ -93,3 +93,27 @@ def test_everything_shared_is_read_only() -> None:
     grid = Grid((1.0, 1.0), 0.5, [(0.0, 0.0, 0.5, 0.5)])
     for array in (grid.free, grid.boxes, grid.locations_m, grid.moves, grid.components):
         assert not array.flags.writeable
+
+
+def test_a_disc_touches_the_cells_that_it_shares_area_with() -> None:
+    """Neither those whose edge or corner it only reaches, nor those that its box covers alone."""
+    grid = Grid((2.5, 2.5), 0.5)
+    touched = grid.touched_by(1.25, 1.25, 0.25)
+    assert touched.tolist() == [12]
+    assert grid.touched_by(1.25, 1.25, 0.26).tolist() == [7, 11, 12, 13, 17]
+    assert grid.touched_by(1.25, 1.25, 0.36).tolist() == [6, 7, 8, 11, 12, 13, 16, 17, 18]
+    assert grid.touched_by(9.0, 9.0, 1.0).tolist() == []
+
+
+def test_avoiding_closes_moves_and_keeps_the_numbering() -> None:
+    """No move leads to, from or past the corner of what is avoided."""
+    grid = Grid((1.5, 1.5), 0.5)
+    avoiding = grid.avoiding({"middle": np.array([4])})
+    np.testing.assert_array_equal(avoiding.locations_m, grid.locations_m)
+    assert avoiding.location_at(0.75, 0.75) == 4
+    assert (avoiding.moves[4] == -1).all()
+    assert 4 not in avoiding.moves
+    assert 3 not in avoiding.moves[1]
+    assert avoiding.components[0] == avoiding.components[8] != avoiding.components[4]
+    assert list(avoiding.avoided) == ["middle"]
+    assert (grid.avoiding({"a": np.array([0])}).avoiding({}).moves == grid.moves).all()

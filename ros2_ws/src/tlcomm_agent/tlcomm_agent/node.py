@@ -117,7 +117,8 @@ class AgentNode(Node):
         self._is_lockstep: Final = self.config.pace.is_lockstep
         pacing = Pacing.EVENT if self._is_lockstep else Pacing.PERIODIC
         site = Site.from_scenario(self.config.scenario)
-        self._member: Final = create(self.config.name, site, pacing, Atlas(site.grid))
+        atlas = Atlas(site.grid, site.region_discs)
+        self._member: Final = create(self.config.name, site, pacing, atlas)
         self._timed: Final = TimedMember(self._member, time.thread_time, time.time)
         self._taken: Final[Counter[str]] = Counter()
         latency_s = self.config.scenario.communication.hop_latency_s

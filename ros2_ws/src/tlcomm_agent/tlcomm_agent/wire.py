@@ -273,6 +273,7 @@ def _encode_offer(offer: MemberOffer) -> _RosMessage:
         heading=offer.yaw_rad,
         linear_speed=offer.linear_mps,
         angular_speed=offer.angular_radps,
+        forbidden=list(offer.avoided),
         task_index=[stop.task_index for stop in stops],
         stop_x=[stop.x_m for stop in stops],
         stop_y=[stop.y_m for stop in stops],
@@ -291,6 +292,7 @@ def _decode_offer(offer: _RosMessage) -> MemberOffer:
         linear_mps=_finite(offer.linear_speed, "offers.linear_speed"),
         angular_radps=_finite(offer.angular_speed, "offers.angular_speed"),
         stops=_decode_stops(offer),
+        avoided=_names(offer.forbidden, "offers.forbidden"),
     )
 
 

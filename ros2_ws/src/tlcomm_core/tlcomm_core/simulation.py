@@ -85,7 +85,7 @@ class _Harness:
         self._on_message = on_message
         scenario = mission.site.scenario
         self.left = Simulated(RunRecords(messages_sent=dict.fromkeys(scenario.agents, 0)))
-        atlas = Atlas(mission.site.grid)
+        atlas = Atlas(mission.site.grid, mission.site.region_discs)
         self._members: dict[str, Member] = {
             name: create(name, mission.site, Pacing.EVENT, atlas) for name in scenario.agents
         }

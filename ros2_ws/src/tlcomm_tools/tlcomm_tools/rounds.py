@@ -48,5 +48,6 @@ def pose_round(site: Site, number: int, seed: int) -> RoundProblem:
     team = team_of(site)
     arrived_s = max(offer.arrival_s for offer in offers.values())
     departure_s = max(arrived_s, team.opens_s(number - 1)) + team.duration_s
-    rounds = MeetingRounds(Atlas(site.grid), team, segment_allowance_s=0.0)
+    atlas = Atlas(site.grid, site.region_discs)
+    rounds = MeetingRounds(atlas, team, segment_allowance_s=0.0)
     return rounds.problem(number, departure_s, [offers[name] for name in sorted(offers)])

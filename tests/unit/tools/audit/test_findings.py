@@ -315,7 +315,7 @@ def test_a_violation_says_who_when_and_by_what() -> None:
     assert audit_with("G (left -> !pick)", without_claims()).violations == (
         "west: task violated at 5.000 s; what was true then: {left, pick}",
     )
-    assert audit_with("F left & G !left", without_claims()).violations == (
+    assert audit_with("F pick & G !pick", without_claims()).violations == (
         "west: task violated at 0.000 s; nothing satisfies it",
     )
 

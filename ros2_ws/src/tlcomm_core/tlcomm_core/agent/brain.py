@@ -195,6 +195,7 @@ class Brain:
             linear_mps=settings.travel.motion.linear_mps,
             angular_radps=settings.travel.motion.angular_radps,
             stops=next_stops(settings.plan, self._done + 1, self._pose, settings.travel, horizon_s),
+            avoided=tuple(sorted(settings.travel.grid.avoided)),
         )
 
     def _next_change_s(self, meeting: _Meeting) -> float:

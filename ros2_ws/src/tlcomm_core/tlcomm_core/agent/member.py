@@ -12,6 +12,7 @@ import math
 from typing import Final
 
 from tlcomm_core.agent.actions import Action
+from tlcomm_core.agent.avoidance import hard_task, obstruction, travel_of
 from tlcomm_core.agent.brain import Brain, Settings
 from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
 from tlcomm_core.agent.events import MessageHeard, OdometryReceived, TimePassed
@@ -24,6 +25,7 @@ from tlcomm_core.planning.explanation import Explanation, explain_plan
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.planning.relaxation import SoftTask, soft_task
+from tlcomm_core.planning.repertoire import Condition
 from tlcomm_core.planning.synthesis import plan_task
 from tlcomm_core.planning.transition_system import TransitionSystem, build
 from tlcomm_core.protocol.actions import CountIgnored
@@ -115,16 +117,25 @@ def local_plan(
 ) -> LocalPlan:
     """Return an agent's optimal local plan.
 
+    Args:
+        name: the agent's name.
+        site: the scenario.
+        travel: its travel times, as ``travel_of`` gives them.
+        objective: what is to be least.
+
     Raises:
         PlanningError: there is none; the message says whose.
     """
     system, soft = _system(name, site, travel), _soft_task(name, site)
     agent = site.scenario.agents[name]
+    task = task_of(agent)
     try:
-        return plan_task(task_of(agent), system, objective, soft)
+        return plan_task(task, system, objective, soft)
     except PlanningError as error:
+        blocked = obstruction(site, system.states[0].location, hard_task(name, site), travel)
+        reason = f"{error}; {blocked}" if blocked else f"{error}"
         place = "tasks" if agent.tasks else "task" if agent.automaton is None else "automaton"
-        raise type(error)(f"agents.{name}.{place}: {error}") from error
+        raise type(error)(f"agents.{name}.{place}: {reason}") from error
 
 
 def explained_plan(
@@ -143,12 +154,18 @@ def explained_plan(
 
 
 def _system(name: str, site: Site, travel: TravelTimes) -> TransitionSystem:
+    actions = site.scenario.conditional_actions_of(name)
+    conditions = {
+        action: Condition(None if own.at is None else frozenset(own.at), frozenset(own.after))
+        for action, own in actions.items()
+    }
     return build(
         travel,
         site.start_of(name),
         site.region_location,
         site.regions_at,
         site.action_durations(name),
+        conditions,
     )
 
 
@@ -168,9 +185,9 @@ def check_tasks(site: Site) -> None:
     Raises:
         PlanningError: an agent's task has no plan.
     """
-    atlas = Atlas(site.grid)
+    atlas = Atlas(site.grid, site.region_discs)
     for name in site.scenario.agents:
-        local_plan(name, site, atlas.travel(site.motion_of(name)))
+        local_plan(name, site, travel_of(name, site, atlas))
 
 
 def team_of(site: Site) -> Team:
@@ -191,14 +208,15 @@ def create(name: str, site: Site, pacing: Pacing, atlas: Atlas) -> Member:
         name: the agent's name.
         site: the scenario.
         pacing: how often its controller is asked.
-        atlas: travel times on the scenario's grid; members in one process may share it.
+        atlas: travel times on the scenario's grid and round its regions; members in one
+            process may share it.
 
     Raises:
         PlanningError: the agent's task has no plan.
     """
     scenario = site.scenario
     allowance_s = _ALLOWANCE_S[pacing]
-    travel = atlas.travel(site.motion_of(name, allowance_s))
+    travel = travel_of(name, site, atlas, allowance_s)
     team = team_of(site)
     # Members' plans lead through regions: with this done, the first round takes no longer than
     # later ones.

@@ -32,7 +32,10 @@ class MeetingRounds:
 
     def is_sound(self, offer: MemberOffer) -> bool:
         """Return whether candidates can be computed from a peer's offer."""
-        return offer_flaw(offer, self._atlas.grid) is None
+        avoided = frozenset(offer.avoided)
+        if not self._atlas.knows(avoided):
+            return False
+        return offer_flaw(offer, self._atlas.grid_avoiding(avoided)) is None
 
     def problem(
         self, round_: int, departure_s: float, offers: Sequence[MemberOffer]
@@ -51,4 +54,4 @@ class MeetingRounds:
 
     def _travel_of(self, offer: MemberOffer) -> TravelTimes:
         motion = Motion(offer.linear_mps, offer.angular_radps, self._allowance_s)
-        return self._atlas.travel(motion)
+        return self._atlas.travel(motion, frozenset(offer.avoided))

@@ -56,6 +56,7 @@ class MemberOffer:
         linear_mps: its speed, v.
         angular_radps: its turn rate, ω.
         stops: its next steps, ascending; the last is there only as what follows its forerunner.
+        avoided: regions that it never drives through, sorted.
     """
 
     agent: str
@@ -66,6 +67,7 @@ class MemberOffer:
     linear_mps: float
     angular_radps: float
     stops: tuple[PlannedStop, ...]
+    avoided: tuple[str, ...] = ()
 
 
 def next_stops(
@@ -106,7 +108,7 @@ def offer_flaw(offer: MemberOffer, grid: Grid) -> str | None:
 
     Args:
         offer: as received; any values.
-        grid: the workspace.
+        grid: the workspace as the agent drives in it, avoiding what it avoids.
     """
     if not all(0.0 < speed < math.inf for speed in (offer.linear_mps, offer.angular_radps)):
         return f"speeds {offer.linear_mps!r} m/s, {offer.angular_radps!r} rad/s aren't positive"

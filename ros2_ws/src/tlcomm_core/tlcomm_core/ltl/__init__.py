@@ -8,6 +8,7 @@
 - ``BuchiAutomaton``, ``GoodPrefixAutomaton``, ``Construction``, ``Transition``, ``Guard``, ``Cube``
 - ``conflict``, ``known_conflict``, ``conjuncts``, ``contradiction``   parts that exclude each other
 - ``profile``, ``Profile``, ``OpenWord``, ``TemporalClass``   what a formula is, with words as proof
+- ``invariants``, ``forbidden``    what a formula demands of every letter
 - ``Monitor``, ``Verdict``        what a finite part of a word says about a formula
 - ``RunMonitor``                 the same for an automaton
 - ``LassoWord``, ``accepted_word``   endless words as proof
@@ -18,7 +19,6 @@
 from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction, Transition
 from tlcomm_core.ltl.conflict import (
     conflict,
-    conjunction,
     conjuncts,
     contradiction,
     known_conflict,
@@ -32,6 +32,7 @@ from tlcomm_core.ltl.formula import (
     Operator,
     atom,
     atoms,
+    conjunction,
     subformulas,
     to_text,
 )
@@ -39,6 +40,7 @@ from tlcomm_core.ltl.good_prefix import GoodPrefixAutomaton, good_prefix_automat
 from tlcomm_core.ltl.guard import Cube, Guard
 from tlcomm_core.ltl.hoa import to_hoa
 from tlcomm_core.ltl.hoa_reader import read_hoa
+from tlcomm_core.ltl.invariant import forbidden, invariants
 from tlcomm_core.ltl.monitor import Monitor, Verdict
 from tlcomm_core.ltl.normal_form import is_co_safe, negation_normal_form, recurring
 from tlcomm_core.ltl.parser import MAX_LENGTH, MAX_NESTING, explain, parse
@@ -76,7 +78,9 @@ __all__ = [
     "conjuncts",
     "contradiction",
     "explain",
+    "forbidden",
     "good_prefix_automaton",
+    "invariants",
     "is_co_safe",
     "known_conflict",
     "negation_normal_form",

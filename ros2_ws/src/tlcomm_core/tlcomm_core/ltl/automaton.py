@@ -24,7 +24,9 @@ class Construction(Enum):
     """How an automaton was made; the value is the word for reports."""
 
     RESTARTED_GOOD_PREFIX = "restarted good-prefix automaton"
+    COMPOSED = "composition of restarted good-prefix automata"
     TABLEAU = "tableau"
+    FOR_LETTERS = "composition for the letters that can occur"
     GIVEN = "given automaton"
 
 

@@ -5,7 +5,6 @@
 - ``known_conflict``     the same, or the formula itself where the search would be too large
 - ``contradiction``      the same in a sentence
 - ``smallest_conflict``  the same for any notion of "possible together"
-- ``conjunction``        of several formulas
 """
 
 from collections.abc import Callable, Sequence
@@ -13,12 +12,11 @@ from itertools import combinations, islice
 from typing import Final
 
 from tlcomm_core.errors import IntractableTaskError, LocalMisuseError
-from tlcomm_core.ltl.formula import TRUE, Formula, Operator, atoms
+from tlcomm_core.ltl.formula import Formula, Operator, atoms, conjunction
 from tlcomm_core.ltl.translation import translate
 
 __all__ = [
     "conflict",
-    "conjunction",
     "conjuncts",
     "contradiction",
     "known_conflict",
@@ -122,14 +120,6 @@ def smallest_conflict(
     if len(trials) > _MOST_TRIALS:
         return tuple(kept)
     return next((chosen for chosen in trials if not is_possible(chosen)), tuple(kept))
-
-
-def conjunction(parts: Sequence[Formula]) -> Formula:
-    """Return the conjunction of some formulas."""
-    whole = parts[0] if parts else TRUE
-    for part in parts[1:]:
-        whole = Formula(Operator.AND, (whole, part))
-    return whole
 
 
 def _is_satisfiable(parts: Sequence[Formula]) -> bool:

@@ -2,6 +2,7 @@
 
 - ``Expansion``   the expansion rules over one formula's subformulas
 - ``antichain``   the sets among some that contain no other
+- ``EVENTUALITIES``   the operators that may be postponed
 - ``MAX_STEPS``   how much work an expansion does before it gives up
 
 A conjunction of formulas is equivalent to a disjunction of *terms*: literals that the present
@@ -17,12 +18,12 @@ from tlcomm_core.errors import IntractableTaskError, LocalMisuseError
 from tlcomm_core.ltl.formula import FALSE, TRUE, Formula, Operator, atoms, subformulas
 from tlcomm_core.ltl.guard import Cube
 
-__all__ = ["MAX_STEPS", "Expansion", "antichain"]
+__all__ = ["EVENTUALITIES", "MAX_STEPS", "Expansion", "antichain"]
 
 # Joined or compared terms during the whole translation of one formula.
 MAX_STEPS: Final = 40_000_000
 
-_EVENTUALITIES: Final = frozenset(
+EVENTUALITIES: Final = frozenset(
     {Operator.EVENTUALLY, Operator.UNTIL, Operator.STRONG_RELEASE},
 )
 
@@ -151,7 +152,7 @@ class Expansion:
     def _again(self, node: Formula) -> tuple[int, ...]:
         """Return the expansion of "the rest of the word satisfies this very formula"."""
         (term,) = self._later(node)
-        if node.operator in _EVENTUALITIES:
+        if node.operator in EVENTUALITIES:
             term |= 1 << (self._literal_bits + len(self._order) + self._place[node])
         return (term,)
 

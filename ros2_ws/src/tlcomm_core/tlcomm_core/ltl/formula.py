@@ -5,12 +5,13 @@
 - ``TRUE``, ``FALSE``, ``atom``   the leaves
 - ``subformulas``   every distinct subformula, children first
 - ``atoms``         the names that a formula reads
+- ``conjunction``   of several formulas
 - ``to_text``       text that the parser reads back, with as few parentheses as it needs
 
 Nothing here recurses, so a formula's depth is bounded by memory alone.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from enum import Enum
 from hashlib import blake2b
 from threading import Lock
@@ -195,6 +196,15 @@ def subformulas(formula: Formula) -> Iterator[Formula]:
 def atoms(formula: Formula) -> tuple[str, ...]:
     """Return the names of the atoms in the order of their first appearance."""
     return tuple(node.name for node in subformulas(formula) if node.operator is Operator.ATOM)
+
+
+def conjunction(parts: Iterable[Formula]) -> Formula:
+    """Return the conjunction of some formulas, joined from the left; of none, true."""
+    members = iter(parts)
+    whole = next(members, TRUE)
+    for part in members:
+        whole = Formula(Operator.AND, (whole, part))
+    return whole
 
 
 def to_text(formula: Formula) -> str:

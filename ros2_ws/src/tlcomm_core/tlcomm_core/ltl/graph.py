@@ -20,7 +20,8 @@ class Edge:
     """An edge on the letters that satisfy a cube.
 
     Attributes:
-        literals: bit 2i requires atom i, bit 2i + 1 forbids it.
+        literals: bit 2i requires atom i, bit 2i + 1 forbids it; in a grouped graph, the number of
+            a guard.
         target: index of the state it leads to.
         marks: bit set of the acceptance marks that it carries.
     """

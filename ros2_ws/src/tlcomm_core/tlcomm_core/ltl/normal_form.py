@@ -2,14 +2,16 @@
 
 - ``negation_normal_form``   negations at the atoms only, constants folded
 - ``is_co_safe``             every word that satisfies it has a good prefix, by its syntax
+- ``is_timeless``            it says something about the present letter alone
 - ``recurring``              φ if the formula is G F φ
+- ``conjoined``              the formulas that a formula is the conjunction of
 """
 
 from typing import Final
 
 from tlcomm_core.ltl.formula import FALSE, TRUE, Formula, Operator, subformulas
 
-__all__ = ["is_co_safe", "negation_normal_form", "recurring"]
+__all__ = ["conjoined", "is_co_safe", "is_timeless", "negation_normal_form", "recurring"]
 
 _DUAL: Final = {
     Operator.TRUE: Operator.FALSE,
@@ -24,6 +26,7 @@ _DUAL: Final = {
     Operator.WEAK_UNTIL: Operator.STRONG_RELEASE,
     Operator.STRONG_RELEASE: Operator.WEAK_UNTIL,
 }
+_TIMELESS: Final = frozenset({Operator.ATOM, Operator.NOT, Operator.AND, Operator.OR})
 _NOT_CO_SAFE: Final = frozenset({Operator.RELEASE, Operator.ALWAYS, Operator.WEAK_UNTIL})
 
 # What U, R, W, M become when one operand is constant: F or G of the other, or that constant;
@@ -68,6 +71,11 @@ def is_co_safe(formula: Formula) -> bool:
     return all(node.operator not in _NOT_CO_SAFE for node in subformulas(normal))
 
 
+def is_timeless(formula: Formula) -> bool:
+    """Return whether a formula in negation normal form has no operator of time and no constant."""
+    return all(node.operator in _TIMELESS for node in subformulas(formula))
+
+
 def recurring(formula: Formula) -> Formula | None:
     """Return φ in negation normal form if the formula, but for sugar, is G F φ; else None.
 
@@ -78,6 +86,25 @@ def recurring(formula: Formula) -> Formula | None:
         return None
     inner = normal.children[0]
     return inner.children[0] if inner.operator is Operator.EVENTUALLY else None
+
+
+def conjoined(formula: Formula) -> tuple[Formula, ...]:
+    """Return the conjuncts of a formula in negation normal form, from left to right, each once.
+
+    G (f & g) counts as the two conjuncts G f and G g.
+    """
+    found: dict[Formula, None] = {}
+    stack = [formula]
+    while stack:
+        node = stack.pop()
+        inner = node.children[0] if node.operator is Operator.ALWAYS else TRUE
+        if node.operator is Operator.AND:
+            stack += reversed(node.children)
+        elif inner.operator is Operator.AND:
+            stack += [_fold_unary(Operator.ALWAYS, child) for child in reversed(inner.children)]
+        else:
+            found[node] = None
+    return tuple(found)
 
 
 def _both_polarities(

@@ -11,18 +11,19 @@ Source: Babiak, Badie, Duret-Lutz, Křetínský and Strejček, "Compositional ap
 other improvements to LTL translation", 2013, for the idea to compose such conjuncts afterwards.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
 from tlcomm_core.ltl.automaton import strong_components
-from tlcomm_core.ltl.formula import TRUE, Formula, Operator, subformulas
+from tlcomm_core.ltl.formula import Formula, Operator
 from tlcomm_core.ltl.graph import Edge, Graph, check_size
+from tlcomm_core.ltl.normal_form import conjoined, is_timeless
 
-__all__ = ["Recurrences", "joined", "separated"]
+__all__ = ["FEW", "Recurrences", "joined", "separated"]
 
 # So few make fewer states in the tableau.
-_FEW: Final = 4
-_TIMELESS: Final = frozenset({Operator.ATOM, Operator.NOT, Operator.AND, Operator.OR})
+FEW: Final = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,46 +31,30 @@ class Recurrences:
     """A formula split into G F β₁ & … & G F βₖ and what is left.
 
     Attributes:
-        rest: the conjunction of all other conjuncts, in negation normal form.
+        rest: all other conjuncts, in negation normal form.
         targets: β₁, …, βₖ.
     """
 
-    rest: Formula
+    rest: tuple[Formula, ...]
     targets: tuple[Formula, ...]
 
 
 def separated(formula: Formula) -> Recurrences:
     """Return the conjuncts G F β of a formula in negation normal form, if there are many."""
-    others: list[Formula] = []
-    targets: list[Formula] = []
-    stack = [formula]
-    while stack:
-        node = stack.pop()
-        if node.operator is Operator.AND:
-            stack += reversed(node.children)
-            continue
-        if node.operator is Operator.ALWAYS and node.children[0].operator is Operator.AND:
-            stack += [_always(child) for child in reversed(node.children[0].children)]
-            continue
-        target = _recurring(node)
-        if target is None:
-            others.append(node)
-        elif target not in targets:
-            targets.append(target)
-    if len(targets) <= _FEW:
-        return Recurrences(formula, ())
-    rest = TRUE
-    for node in others:
-        rest = node if rest is TRUE else Formula(Operator.AND, (rest, node))
-    return Recurrences(rest, tuple(targets))
+    parts = conjoined(formula)
+    found = {node: target for node in parts if (target := _recurring(node)) is not None}
+    if len(found) <= FEW:
+        return Recurrences(parts, ())
+    return Recurrences(tuple(node for node in parts if node not in found), tuple(found.values()))
 
 
-def joined(graph: Graph, targets: tuple[tuple[int, ...], ...]) -> Graph:
+def joined(graph: Graph, targets: tuple[int, ...], both: Callable[[int, int], int | None]) -> Graph:
     """Return a graph with one mark that waits for each target in turn, then for a graph's own mark.
 
     Args:
-        graph: an automaton with one mark.
-        targets: per β the cubes of which it is the disjunction.
+        graph: a grouped automaton with one mark.
+        targets: per β the number of the guard that it is.
+        both: the conjunction of two guards by number, None if no letter passes it.
     """
     component = strong_components([[edge.target for edge in row] for row in graph.rows])
     number: dict[tuple[int, int], int] = {(0, 0): 0}
@@ -80,34 +65,21 @@ def joined(graph: Graph, targets: tuple[tuple[int, ...], ...]) -> Graph:
         row = []
         for edge in graph.rows[state]:
             inside = component[state] == component[edge.target]
-            advances = _advances(edge, level, targets) if inside else [(edge.literals, 0)]
-            for literals, reached in advances:
+            advances = [(edge.literals, level if inside else 0)]
+            if inside and level < len(targets):
+                met = both(edge.literals, targets[level])
+                advances += [] if met is None else [(met, level + 1)]
+            for guard, reached in advances:
                 ends = inside and reached == len(targets) and bool(edge.marks)
                 node = (edge.target, 0 if ends else reached)
                 if node not in number:
                     number[node] = len(number)
                     pending.append(node)
-                row.append(Edge(literals, number[node], int(ends)))
+                row.append(Edge(guard, number[node], int(ends)))
         rows.append(tuple(row))
         edges += len(row)
         check_size(len(number), edges)
     return Graph(tuple(rows), 1)
-
-
-def _advances(
-    edge: Edge, level: int, targets: tuple[tuple[int, ...], ...]
-) -> list[tuple[int, int]]:
-    """Return the literals of an edge and the level after it, with and without the next target."""
-    found = [(edge.literals, level)]
-    if level < len(targets):
-        met = (edge.literals | cube for cube in targets[level])
-        found += [(literals, level + 1) for literals in met if not _contradicts(literals)]
-    return found
-
-
-def _always(formula: Formula) -> Formula:
-    always = formula.operator is Operator.ALWAYS
-    return formula if always else Formula(Operator.ALWAYS, (formula,))
 
 
 def _recurring(node: Formula) -> Formula | None:
@@ -117,12 +89,4 @@ def _recurring(node: Formula) -> Formula | None:
     if inner.operator is not Operator.EVENTUALLY:
         return None
     target = inner.children[0]
-    timeless = all(part.operator in _TIMELESS for part in subformulas(target))
-    return target if timeless else None
-
-
-def _contradicts(literals: int) -> bool:
-    """Return whether the literals require and forbid the same atom."""
-    return any(
-        literals >> bit & literals >> bit + 1 & 1 for bit in range(0, literals.bit_length(), 2)
-    )
+    return target if is_timeless(target) else None

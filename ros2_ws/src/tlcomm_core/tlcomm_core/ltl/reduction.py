@@ -1,17 +1,18 @@
 """Smaller graphs for the same language.
 
 - ``reduced``           without useless states, states that simulate each other merged
-- ``degeneralized``     one acceptance mark instead of several
+- ``productive``        without the edges that lie on no accepting run
+- ``renumbered``        without the states that can't be reached
 """
 
 from collections.abc import Callable, Hashable
 from typing import Final
 
 from tlcomm_core.ltl.automaton import strong_components
-from tlcomm_core.ltl.graph import Edge, Graph, check_size
+from tlcomm_core.ltl.graph import Edge, Graph
 from tlcomm_core.ltl.simulation import Letters, simulating
 
-__all__ = ["degeneralized", "reduced"]
+__all__ = ["productive", "reduced", "renumbered"]
 
 # Beyond so many edges, or pairs of a state and an edge, only equal states are merged.
 _MOST_EDGES: Final = 2_000
@@ -37,7 +38,7 @@ def reduced(graph: Graph) -> Graph:
     for _ in range(_MOST_ROUNDS):
         before = graph
         for idle_marks in (-1, 0):
-            graph = _with_idle_marks(_productive(graph), idle_marks)
+            graph = _with_idle_marks(productive(graph), idle_marks)
             graph = _bisimulation_quotient(graph)
             edges = sum(map(len, graph.rows))
             if edges <= _MOST_EDGES and len(graph.rows) * edges <= _MOST_PAIRS:
@@ -48,9 +49,9 @@ def reduced(graph: Graph) -> Graph:
 
 
 def _bisimulation_quotient(graph: Graph) -> Graph:
-    graph = _renumbered(graph)
+    graph = renumbered(graph)
     while True:
-        smaller = _renumbered(_mapped(graph, _classes(graph)))
+        smaller = renumbered(_mapped(graph, _classes(graph)))
         if smaller == graph:
             return graph
         graph = smaller
@@ -72,7 +73,7 @@ def _simulation_quotient(graph: Graph) -> Graph:
     for row in graph.rows:
         moved = sorted({Edge(e.literals, classes[e.target], e.marks) for e in row})
         rows.append(_unmatched(moved, above, letters))
-    return _renumbered(Graph(tuple(rows), graph.mark_count))
+    return renumbered(Graph(tuple(rows), graph.mark_count))
 
 
 def _unmatched(row: list[Edge], above: list[int], letters: Letters) -> tuple[Edge, ...]:
@@ -92,83 +93,15 @@ def _unmatched(row: list[Edge], above: list[int], letters: Letters) -> tuple[Edg
     return tuple(sorted(kept))
 
 
-def degeneralized(graph: Graph) -> Graph:
-    """Return an equivalent graph with one mark.
-
-    A counter waits for each of the marks in turn; the edge that brings the last one is accepting
-    and the counter begins anew. It also begins anew on an edge that can't lie on a cycle.
-
-    Within a strongly connected component it waits only for marks that no other mark there entails.
-
-    Source: Gastin and Oddoux, "Fast LTL to Büchi automata translation", 2001 (counting as many
-    marks as an edge brings at once).
-    Cost: up to ``mark_count`` times as many states.
-    """
-    component = _components(graph)
-    needed = _needed_marks(graph, component)
-
-    def advance(node: tuple[int, int], edge: Edge) -> tuple[tuple[int, int], bool]:
-        state, level = node
-        if component[state] != component[edge.target]:
-            return (edge.target, 0), False
-        wanted = needed[component[state]]
-        while level < len(wanted) and edge.marks >> wanted[level] & 1:
-            level += 1
-        accepting = level == len(wanted)
-        return (edge.target, 0 if accepting else level), accepting
-
-    number: dict[tuple[int, int], int] = {(0, 0): 0}
-    pending = [(0, 0)]
-    rows: list[tuple[Edge, ...]] = []
-    edges = 0
-    for node in pending:
-        row = []
-        for edge in graph.rows[node[0]]:
-            target, accepting = advance(node, edge)
-            if target not in number:
-                number[target] = len(number)
-                pending.append(target)
-            row.append(Edge(edge.literals, number[target], int(accepting)))
-        rows.append(tuple(row))
-        edges += len(row)
-        check_size(len(number), edges)
-    return Graph(tuple(rows), 1)
-
-
-def _needed_marks(graph: Graph, component: list[int]) -> dict[int, list[int]]:
-    """Return per component the marks to wait for: none whose edges include another's edges."""
-    inside: dict[int, set[int]] = {label: set() for label in component}
-    for state, row in enumerate(graph.rows):
-        for edge in row:
-            if component[state] == component[edge.target]:
-                inside[component[state]].add(edge.marks)
-    return {label: _minimal_marks(sets, graph.mark_count) for label, sets in inside.items()}
-
-
-def _minimal_marks(sets: set[int], count: int) -> list[int]:
-    full = (1 << count) - 1
-    if full in sets and len(sets) == 1:
-        return []
-    # Per mark the other marks that every edge with it carries too.
-    entailed = [full] * count
-    for marks in sets:
-        for mark in range(count):
-            if marks >> mark & 1:
-                entailed[mark] &= marks
-    kept = full
-    for mark in range(count):
-        others = kept & ~(1 << mark)
-        if any(others >> other & 1 and entailed[other] >> mark & 1 for other in range(count)):
-            kept = others
-    return [mark for mark in range(count) if kept >> mark & 1]
-
-
 def _components(graph: Graph) -> list[int]:
     return strong_components([[edge.target for edge in row] for row in graph.rows])
 
 
-def _productive(graph: Graph) -> Graph:
-    """Remove the edges into states from which no run accepts."""
+def productive(graph: Graph) -> Graph:
+    """Return a graph without the edges into states from which no run accepts.
+
+    Such states themselves stay, out of reach.
+    """
     component = _components(graph)
     marks: dict[int, int] = {}
     for state, row in enumerate(graph.rows):
@@ -251,8 +184,8 @@ def _mapped(graph: Graph, classes: list[int]) -> Graph:
     return Graph(tuple(rows[index] for index in range(len(rows))), graph.mark_count)
 
 
-def _renumbered(graph: Graph) -> Graph:
-    """Keep the states that can be reached, numbered in the order of a breadth-first search."""
+def renumbered(graph: Graph) -> Graph:
+    """Return the states that can be reached, in the order of a breadth-first search."""
     number = {0: 0}
     pending = [0]
     for state in pending:

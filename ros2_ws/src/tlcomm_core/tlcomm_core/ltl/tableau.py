@@ -1,22 +1,28 @@
 """Any LTL formula to a Büchi automaton, by an on-the-fly tableau.
 
 - ``tableau_automaton``   an automaton of the words that satisfy the formula
+- ``tableau_parts``       the automata that it is put together from
 
 A state is a set of formulas that the rest of the word must satisfy; expanding it gives the edges.
 An edge carries the mark of every eventuality that it doesn't postpone: an eventuality that is
 never fulfilled is postponed for ever, and its mark isn't seen again.
 """
 
-from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction, Transition
-from tlcomm_core.ltl.expansion import Expansion
-from tlcomm_core.ltl.formula import Formula, atoms
+from typing import Final
+
+from tlcomm_core.ltl.assembly import Parts, assembled
+from tlcomm_core.ltl.automaton import BuchiAutomaton, Construction
+from tlcomm_core.ltl.expansion import EVENTUALITIES, Expansion
+from tlcomm_core.ltl.formula import Formula, Operator, atoms, conjunction, subformulas
 from tlcomm_core.ltl.graph import Edge, Graph, check_size
-from tlcomm_core.ltl.guard import Cube, simplified
-from tlcomm_core.ltl.recurrence import joined, separated
-from tlcomm_core.ltl.reduction import degeneralized, reduced
+from tlcomm_core.ltl.recurrence import separated
+from tlcomm_core.ltl.reduction import reduced
 from tlcomm_core.ltl.rewriting import rewritten
 
-__all__ = ["tableau_automaton"]
+__all__ = ["tableau_automaton", "tableau_parts"]
+
+# So many lasting obligations are expanded apart.
+_MANY: Final = 3
 
 
 def tableau_automaton(formula: Formula) -> BuchiAutomaton:
@@ -32,14 +38,38 @@ def tableau_automaton(formula: Formula) -> BuchiAutomaton:
     Cost: exponential in the formula in the worst case, as the problem is; but no more than
         ``MAX_STEPS`` steps of expansion and ``MAX_STATES`` states with ``MAX_EDGES`` edges.
     """
+    return assembled(tableau_parts(formula, atoms(formula)), Construction.TABLEAU)
+
+
+def tableau_parts(formula: Formula, names: tuple[str, ...]) -> Parts:
+    """Return automata whose common words are those that satisfy a formula.
+
+    Args:
+        formula: any.
+        names: the atoms to number first.
+
+    Raises:
+        IntractableTaskError: one would be too large.
+    """
     parts = separated(rewritten(formula))
-    names = atoms(formula)
-    expansion = Expansion(parts.rest, names)
-    graph = reduced(degeneralized(reduced(_explored(expansion))))
-    if parts.targets:
-        graph = reduced(joined(graph, tuple(_cubes(target, names) for target in parts.targets)))
-    rows = tuple(_transitions(expansion, row) for row in graph.rows)
-    return BuchiAutomaton(names, 0, rows, Construction.TABLEAU)
+    graphs = (reduced(_explored(Expansion(factor, names))) for factor in _factors(parts.rest))
+    return Parts(names, tuple(graphs), tuple(_cubes(target, names) for target in parts.targets))
+
+
+def _factors(conjuncts: tuple[Formula, ...]) -> list[Formula]:
+    """Return the formulas to expand apart: all together, but each of many lasting obligations."""
+    lasting = [node for node in conjuncts if _is_lasting(node)]
+    if len(lasting) < _MANY:
+        return [conjunction(conjuncts)]
+    others = [node for node in conjuncts if node not in lasting]
+    return [conjunction(others), *lasting] if others else lasting
+
+
+def _is_lasting(node: Formula) -> bool:
+    """Return whether a formula asks for eventualities again and again."""
+    return node.operator is Operator.ALWAYS and any(
+        part.operator in EVENTUALITIES for part in subformulas(node)
+    )
 
 
 def _cubes(timeless: Formula, names: tuple[str, ...]) -> tuple[int, ...]:
@@ -84,14 +114,3 @@ def _marked(found: list[list[tuple[int, int, int]]]) -> Graph:
 
     rows = (tuple(Edge(cube, target, marks(late)) for cube, target, late in row) for row in found)
     return Graph(tuple(rows), len(places))
-
-
-def _transitions(expansion: Expansion, row: tuple[Edge, ...]) -> tuple[Transition, ...]:
-    """Join the edges with the same target and acceptance into one guarded transition."""
-    cubes: dict[tuple[int, int], list[Cube]] = {}
-    for edge in row:
-        cubes.setdefault((edge.target, edge.marks), []).append(expansion.cube(edge.literals))
-    return tuple(
-        Transition(simplified(group), target, accepting=marks == 1)
-        for (target, marks), group in cubes.items()
-    )

@@ -107,7 +107,7 @@ class _Comparison:
         self._system: Final = system
         self._objective: Final = objective
         self._automaton: Final[BuchiAutomaton] = (
-            task if isinstance(task, BuchiAutomaton) else translate(task)
+            task if isinstance(task, BuchiAutomaton) else translate(task, system.labels)
         )
         self._product: Final = products.build(system, self._automaton, soft)
         best = optimal_lasso(self._product, objective)
@@ -154,8 +154,10 @@ class _Comparison:
         suffix = list(lasso.suffix)
         until = int(self._product.accepting[suffix].argmax()) + 1
         first = [*lasso.prefix, *suffix[:until]]
-        times_ns = self._product.time_ns
-        return self._objective.key(int(times_ns[first].sum()), int(times_ns[suffix].sum()))
+        product, times_ns = self._product, self._product.time_ns
+        start = np.searchsorted(product.initial, product.source[first[0]])
+        first_ns = int(product.initial_ns[start] + times_ns[first].sum())
+        return self._objective.key(first_ns, int(times_ns[suffix].sum()))
 
 
 def _moves(product: Product, system: TransitionSystem) -> Ints:

@@ -19,6 +19,7 @@ from tlcomm_core.errors import (
 )
 from tlcomm_core.ltl import (
     BuchiAutomaton,
+    Construction,
     Cube,
     Formula,
     Guard,
@@ -63,12 +64,12 @@ def failure(
         if task.is_empty():
             return UnsatisfiableTaskError("the automaton contradicts itself: no word fits it")
         return UnreachableTaskError(f"the automaton can't be done: {_reason((), task, system)}")
-    if automaton.is_empty():
+    if automaton.is_empty() and automaton.kind is not Construction.FOR_LETTERS:
         return UnsatisfiableTaskError(contradiction(known_conflict(task)))
     words = quotient(system)
     every = conjuncts(task)
     parts = smallest_conflict(every, lambda chosen: _is_possible(chosen, words))
-    blamed = automaton if parts == every else translate(conjunction(parts))
+    blamed = automaton if parts == every else translate(conjunction(parts), system.labels)
     quoted = " and ".join(repr(str(part)) for part in parts)
     together = " together" if len(parts) > 1 else ""
     return UnreachableTaskError(
@@ -79,7 +80,7 @@ def failure(
 def _is_possible(parts: Sequence[Formula], system: TransitionSystem) -> bool:
     """Return whether a run satisfies all parts; what can't be translated isn't blamed."""
     try:
-        automaton = translate(conjunction(parts))
+        automaton = translate(conjunction(parts), system.labels)
     except IntractableTaskError:
         return True
     return _has_accepting_cycle(build(system, automaton))
@@ -97,13 +98,15 @@ def _reason(parts: Sequence[Formula], automaton: BuchiAutomaton, system: Transit
     """Return what parts that aren't possible, and their automaton, lack."""
     pose = system.states[0].pose
     start = f"({pose.x_m:g}, {pose.y_m:g})"
-    possible = Label().union(*system.labels)
-    never = [atom for atom in automaton.atoms if atom not in possible]
-    if _without(automaton, never).is_empty():
-        culprits = [atom for atom in never if _without(automaton, [atom]).is_empty()] or never
-        return " and ".join(_absence(atom, system, start) for atom in culprits)
-    if _limited_to(automaton, system.labels).is_empty():
-        return f"{_unmet(parts, system)} at any place that can be reached from {start}"
+    # An automaton made for the system's letters alone may be empty, and then says no more.
+    if not automaton.is_empty():
+        possible = Label().union(*system.labels)
+        never = [atom for atom in automaton.atoms if atom not in possible]
+        if _without(automaton, never).is_empty():
+            culprits = [atom for atom in never if _without(automaton, [atom]).is_empty()] or never
+            return " and ".join(_absence(atom, system, start) for atom in culprits)
+        if _limited_to(automaton, system.labels).is_empty():
+            return f"{_unmet(parts, system)} at any place that can be reached from {start}"
     regions = " and ".join(map(repr, sorted(system.labels[system.initial_label]))) or "no region"
     return f"no order of visits and actions fits that begins at {start}, in {regions}"
 

@@ -51,7 +51,7 @@ def plan_task(
     Cost: see ``translate``, ``product.build`` and ``optimal_lasso``; for products that may have
         more than ``MOST_HELD`` edges ``essential_part`` comes first, unless there is a soft task.
     """
-    automaton = task if isinstance(task, BuchiAutomaton) else translate(task)
+    automaton = task if isinstance(task, BuchiAutomaton) else translate(task, system.labels)
     part = system
     if soft is None and is_large(system, automaton):
         part = essential_part(system, automaton, objective)

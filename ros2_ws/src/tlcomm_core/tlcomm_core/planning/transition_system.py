@@ -8,8 +8,9 @@
 
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
+from types import MappingProxyType
 from typing import Final
 
 import numpy as np
@@ -17,31 +18,16 @@ from numpy.typing import NDArray
 
 from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.geometry import Pose
-from tlcomm_core.workspace.lattice import HEADINGS, HEADINGS_RAD
+from tlcomm_core.planning.repertoire import Condition, Repertoire
+from tlcomm_core.planning.roads import IDLE_S, Roads, State
 from tlcomm_core.workspace.travel import TravelTimes
 
 __all__ = ["IDLE_S", "State", "TransitionSystem", "build"]
 
-IDLE_S: Final = 1.0
+_UNCONDITIONED: Final[Mapping[str, Condition]] = MappingProxyType({})
 
-Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Label = frozenset[str]
-
-
-@dataclass(frozen=True, slots=True)
-class State:
-    """What the future depends on after a step.
-
-    Attributes:
-        location: index into the grid's free cells.
-        pose: the exact pose, as the leg that led there predicts it.
-        has_acted_instantly: the step that led there was an action that took no time.
-    """
-
-    location: int
-    pose: Pose
-    has_acted_instantly: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,8 +35,8 @@ class TransitionSystem:
     """States and *steps*: a step is a transition together with the composed state it enters.
 
     The composed state ⟨π, a⟩ of the paper is the place and the action of a step. Nothing that
-    comes after it depends on the action, so composed states that differ in it alone are one
-    ``State`` here; runs, labels and times are the same.
+    comes after it depends on the action but what a state's ``memory`` holds, so composed states
+    that differ in the action alone are one ``State`` here; runs, labels and times are the same.
 
     Attributes:
         states: number 0 is the initial one.
@@ -98,6 +84,7 @@ def build(
     region_location: Mapping[str, int],
     regions_at: Callable[[int], Label],
     action_durations: Mapping[str, float],
+    conditions: Mapping[str, Condition] = _UNCONDITIONED,
 ) -> TransitionSystem:
     """Return the part of an agent's transition system that is reachable from its start.
 
@@ -110,17 +97,17 @@ def build(
         region_location: the location that being in a region means; the order breaks ties.
         regions_at: the regions whose discs contain a location.
         action_durations: duration of each action in s, ≥ 0; the order breaks ties.
+        conditions: what actions need first, of those that need anything.
 
     Raises:
-        LocalMisuseError: the start isn't in a free cell, or a duration is negative.
+        LocalMisuseError: the start isn't in a free cell, a duration is negative, or a condition
+            names an unknown action.
 
-    Cost: one travel tree per region, and O(8·M²) in whole arrays for M regions.
+    Cost: one travel tree per region, and O(8·M²) in whole arrays for M regions, for each memory
+        that comes up.
     """
-    for action, duration_s in action_durations.items():
-        if not duration_s >= 0.0:
-            message = f"duration of action {action!r} is {duration_s!r}, expected ≥ 0"
-            raise LocalMisuseError(message)
-    return _Builder(times, start, region_location, regions_at, action_durations).build()
+    repertoire = Repertoire(action_durations, conditions)
+    return _Builder(times, start, region_location, regions_at, repertoire).build()
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,104 +119,6 @@ class _Step:
     drive_s: float
     drive_m: float
     stay_s: float
-
-
-@dataclass(frozen=True, slots=True)
-class _Rows:
-    """Steps out of regular states; states as keys."""
-
-    source: Ints
-    target: Ints
-    action: Ints
-    drive_s: Floats
-    drive_m: Floats
-    stay_s: Floats
-
-
-class _Roads:
-    """The regular states, which stand on a region's centre with a lattice heading, and their steps.
-
-    The key of (place p, heading k, has acted instantly i) is (8·p + k)·2 + i.
-    """
-
-    def __init__(
-        self, times: TravelTimes, places: Sequence[int], durations_s: Sequence[float]
-    ) -> None:
-        self._grid: Final = times.grid
-        self._places: Final = places
-        self._number: Final = {place: number for number, place in enumerate(places)}
-        self._durations_s: Final = durations_s
-        shape = (len(places) * HEADINGS, len(places))
-        self._drive_s: Final = np.empty(shape)
-        self._drive_m: Final = np.empty(shape)
-        self._arrival: Final = np.empty(shape, dtype=np.int64)
-        for number, place in enumerate(places):
-            arrivals = times.arrivals_at(place)
-            headings = arrivals.heading[places].ravel()
-            self._drive_m[:, number] = arrivals.distance_m[places].ravel()
-            self._drive_s[:, number] = times.time_to(place)[places].ravel()
-            self._arrival[:, number] = (number * HEADINGS + headings) * 2
-
-    def key_of(self, state: State) -> int | None:
-        """Return a state's key; ``None`` if it isn't regular."""
-        place, pose = self._number.get(state.location), state.pose
-        if place is None or pose.yaw_rad not in HEADINGS_RAD:
-            return None
-        if [pose.x_m, pose.y_m] != self._grid.locations_m[state.location].tolist():
-            return None
-        heading = HEADINGS_RAD.index(pose.yaw_rad)
-        return (place * HEADINGS + heading) * 2 + state.has_acted_instantly
-
-    def state_of(self, key: int) -> State:
-        """Return the state with a key."""
-        node, has_acted_instantly = divmod(key, 2)
-        place, heading = divmod(node, HEADINGS)
-        location = self._places[place]
-        x_m, y_m = self._grid.locations_m[location].tolist()
-        return State(location, Pose(x_m, y_m, HEADINGS_RAD[heading]), has_acted_instantly > 0)
-
-    def places_of(self, keys: Ints) -> Ints:
-        """Return the number of each state's place."""
-        places: Ints = keys // (2 * HEADINGS)
-        return places
-
-    def reached_from(self, keys: Ints) -> Ints:
-        """Return the keys of all regular states that some lead to, themselves included, sorted."""
-        known = np.zeros(2 * HEADINGS * len(self._places), dtype=np.bool_)
-        frontier = keys
-        while len(frontier):
-            known[frontier] = True
-            target = self.steps_from(frontier).target
-            frontier = np.unique(target[~known[target]])
-        return np.flatnonzero(known)
-
-    def steps_from(self, keys: Ints) -> _Rows:
-        """Return the steps, by state; on the spot first, then to the other places in order."""
-        nodes = keys // 2
-        stay_target, stay_s = self._stays(keys)
-        count = stay_s.shape[1]
-        shape = (len(keys), count + len(self._places))
-        kept = np.ones(shape, dtype=np.bool_)
-        kept[np.arange(len(keys)), count + nodes // HEADINGS] = False
-        action = np.zeros(shape, dtype=np.int64)
-        action[:, :count] = np.arange(count)
-        no_drive, no_stay_s = np.zeros_like(stay_s), np.zeros((len(keys), len(self._places)))
-        return _Rows(
-            source=np.repeat(keys, shape[1] - 1),
-            target=np.hstack((stay_target, self._arrival[nodes]))[kept],
-            action=action[kept],
-            drive_s=np.hstack((no_drive, self._drive_s[nodes]))[kept],
-            drive_m=np.hstack((no_drive, self._drive_m[nodes]))[kept],
-            stay_s=np.hstack((stay_s, no_stay_s))[kept],
-        )
-
-    def _stays(self, keys: Ints) -> tuple[Ints, Floats]:
-        """Return targets and times of staying put: idle, then every action."""
-        seconds = np.array([IDLE_S, *self._durations_s])
-        calm = keys - keys % 2
-        may_be_instant = (keys % 2 == 0)[:, None] & (seconds == 0.0)
-        stay_s = np.where((seconds == 0.0) & ~may_be_instant, IDLE_S, seconds)
-        return calm[:, None] + may_be_instant, stay_s
 
 
 class _Builder:
@@ -244,17 +133,21 @@ class _Builder:
         start: Pose,
         region_location: Mapping[str, int],
         regions_at: Callable[[int], Label],
-        action_durations: Mapping[str, float],
+        repertoire: Repertoire,
     ) -> None:
         self._times = times
         self._regions_at = cache(regions_at)
-        self._actions: tuple[str | None, ...] = (None, *action_durations)
-        self._durations_s = tuple(action_durations.values())
+        self._repertoire = repertoire
         self._initial = _initial_state(times, start)
         self._regions = _regions_by_location(times, self._initial.location, region_location)
         self._places = [location for location, names in self._regions.items() if names]
-        self._roads = _Roads(times, self._places, self._durations_s)
+        self._roads = Roads(times, self._places, repertoire, self._possible())
         self._labels: dict[Label, int] = {}
+
+    def _possible(self) -> NDArray[np.bool_]:
+        """Return which actions are possible at each place."""
+        rows = [self._repertoire.possible_in(self._regions_at(place)) for place in self._places]
+        return np.array(rows, dtype=np.bool_).reshape(-1, len(self._repertoire.actions))
 
     def build(self) -> TransitionSystem:
         """Expand every state once."""
@@ -262,7 +155,7 @@ class _Builder:
         odd, steps = self._odd()
         entries = [self._roads.key_of(step.target) for _, step in steps]
         regular = self._regular([key for key in entries if key is not None])
-        number_of = np.full(2 * HEADINGS * len(self._places), -1, dtype=np.int64)
+        number_of = np.full(self._roads.key_count, -1, dtype=np.int64)
         number_of[regular] = len(odd) + np.arange(len(regular))
         rows = self._roads.steps_from(regular)
         odd_number = {state: number for number, state in enumerate(odd)}
@@ -272,11 +165,11 @@ class _Builder:
         ]
         odd_label = [self._label(step.target.location, step.action) for _, step in steps]
         places = self._roads.places_of(rows.target)
-        label_at = self._labels_by_place()
+        label_at = self._labels_by_place(places, rows.action)
         return TransitionSystem(
             states=(*odd, *map(self._roads.state_of, regular.tolist())),
             regions=self._regions,
-            actions=self._actions,
+            actions=self._repertoire.actions,
             labels=tuple(self._labels),
             initial_label=initial_label,
             source=_joined([source for source, _ in steps], number_of[rows.source]),
@@ -312,33 +205,44 @@ class _Builder:
         for location in self._places:
             if location != state.location:
                 leg = self._times.leg_to(state.pose, location)
-                yield _Step(State(location, leg.arrival), 0, leg.duration_s, leg.distance_m, 0.0)
+                arrived = State(location, leg.arrival, memory=state.memory)
+                yield _Step(arrived, 0, leg.duration_s, leg.distance_m, 0.0)
 
     def _stays(self, state: State) -> Iterator[_Step]:
         """Yield the steps at the same place, over its centre if the start is beside it."""
         leg = self._times.leg_to(state.pose, state.location)
         has_arrived = leg.duration_s > 0.0
-        idle = State(state.location, leg.arrival)
+        idle = State(state.location, leg.arrival, memory=state.memory)
         yield _Step(idle, 0, leg.duration_s, leg.distance_m, 0.0 if has_arrived else IDLE_S)
         if not self._regions[state.location]:
             return
-        for action, duration_s in enumerate(self._durations_s, start=1):
+        memory = np.array([state.memory])
+        possible = self._repertoire.possible_in(self._regions_at(state.location))
+        possible &= self._repertoire.possible_after(memory)[0]
+        memories = self._repertoire.memory_after(memory)[0].tolist()
+        for action, duration_s in enumerate(self._repertoire.durations_s, start=1):
+            calm = replace(idle, memory=memories[action])
+            if not possible[action]:
+                continue
             if duration_s > 0.0:
-                yield _Step(idle, action, leg.duration_s, leg.distance_m, duration_s)
+                yield _Step(calm, action, leg.duration_s, leg.distance_m, duration_s)
             elif state.has_acted_instantly:
-                yield _Step(idle, action, 0.0, 0.0, IDLE_S)
+                yield _Step(calm, action, 0.0, 0.0, IDLE_S)
             else:
-                instant = State(state.location, leg.arrival, has_acted_instantly=True)
+                instant = replace(calm, has_acted_instantly=True)
                 yield _Step(instant, action, leg.duration_s, leg.distance_m, 0.0)
 
-    def _labels_by_place(self) -> Ints:
-        """Return the number of the label at each place with each action."""
-        actions = range(len(self._actions))
-        numbers = [[self._label(place, action) for action in actions] for place in self._places]
-        return np.array(numbers, dtype=np.int64).reshape(-1, len(self._actions))
+    def _labels_by_place(self, places: Ints, actions: Ints) -> Ints:
+        """Return the number of the label at each place with each action, of those that occur."""
+        count = len(self._repertoire.actions)
+        numbers = np.full((len(self._places), count), -1, dtype=np.int64)
+        for pair in np.unique(places * count + actions).tolist():
+            place, action = divmod(pair, count)
+            numbers[place, action] = self._label(self._places[place], action)
+        return numbers
 
     def _label(self, location: int, action: int) -> int:
-        name = self._actions[action]
+        name = self._repertoire.actions[action]
         label = self._regions_at(location) | ({name} if name else frozenset())
         return self._labels.setdefault(label, len(self._labels))
 

@@ -1,12 +1,9 @@
 """What a scenario's fields must mean together.
 
-``Finding``  one thing wrong, and its place in the file
-``check``    all findings of a scenario
+``check``  all findings of a scenario
 """
 
-import difflib
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -15,27 +12,21 @@ from scipy.sparse.csgraph import connected_components
 from tlcomm_core.errors import FormulaError, InputError
 from tlcomm_core.ltl.formula import atoms
 from tlcomm_core.ltl.parser import explain, parse
+from tlcomm_core.scenario.conditions import check_conditions
 from tlcomm_core.scenario.document import Place
+from tlcomm_core.scenario.finding import Finding, did_you_mean
 from tlcomm_core.scenario.model import Agent, Scenario, Workspace
 from tlcomm_core.scenario.site import grid_of, region_location
 from tlcomm_core.scenario.task import read_automaton
 from tlcomm_core.workspace.grid import Grid
 
-__all__ = ["MAX_CELLS", "Finding", "check", "did_you_mean"]
+__all__ = ["MAX_CELLS", "check"]
 
 MAX_CELLS: Final = 1_000_000
 # Names of topics and nodes beside which an agent's namespace would be taken for something else.
 _TAKEN_NAMES: Final = frozenset(
     {"clock", "connectivity", "parameter_events", "recorder", "rosout", "sim", "tf", "tf_static"}
 )
-
-
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """Something wrong: where, what was found, and what was expected."""
-
-    place: Place
-    what: str
 
 
 def check(scenario: Scenario) -> list[Finding]:
@@ -49,18 +40,11 @@ def check(scenario: Scenario) -> list[Finding]:
     grid = grid_of(scenario.workspace)
     findings += _regions(scenario.workspace, grid)
     findings += _starts(scenario, grid)
+    findings += check_conditions(scenario)
     findings += _tasks(scenario)
     if findings:
         return findings
     return [*_connectivity(scenario), *_reachability(scenario, grid)]
-
-
-def did_you_mean(name: str, known: Collection[str]) -> str:
-    """Return what to use instead of an unknown name."""
-    close = difflib.get_close_matches(name, known, n=1)
-    if close:
-        return f"did you mean {close[0]!r}?"
-    return f"expected one of {', '.join(sorted(known)[:20])}"
 
 
 def _timing(scenario: Scenario) -> Iterator[Finding]:
@@ -105,7 +89,7 @@ def _extent(workspace: Workspace) -> Iterator[Finding]:
 
 def _names(scenario: Scenario) -> Iterator[Finding]:
     regions = scenario.workspace.regions
-    places: list[Place] = [("workspace", "regions", name) for name in regions]
+    places: list[tuple[str, ...]] = [("workspace", "regions", name) for name in regions]
     places += [("actions", name) for name in scenario.actions]
     for agent, fields in scenario.agents.items():
         places += [("agents", agent, "actions", name) for name in fields.actions]

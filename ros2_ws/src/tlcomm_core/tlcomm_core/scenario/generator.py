@@ -84,7 +84,7 @@ def random_scenario(
             range_m=2.0 * cell_m, period_s=_period_s(grid, chosen), duration_s=_DURATION_S
         ),
         motion=_DRIVE,
-        actions=_ACTIONS,
+        actions=dict(_ACTIONS),
         agents=fleet,
     )
     return verify(scenario)

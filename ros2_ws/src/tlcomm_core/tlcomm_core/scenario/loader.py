@@ -21,7 +21,7 @@ from pydantic_core import ErrorDetails
 
 from tlcomm_core.errors import ScenarioError
 from tlcomm_core.scenario.automaton_file import inline_automata
-from tlcomm_core.scenario.checks import Finding, check, did_you_mean
+from tlcomm_core.scenario.checks import check
 from tlcomm_core.scenario.document import (
     MAX_BYTES,
     Document,
@@ -30,7 +30,8 @@ from tlcomm_core.scenario.document import (
     parse_yaml,
     place_text,
 )
-from tlcomm_core.scenario.model import Scenario, Workspace
+from tlcomm_core.scenario.finding import Finding, did_you_mean
+from tlcomm_core.scenario.model import ACTION_FORMS, Action, AnyAction, Scenario, Workspace
 from tlcomm_core.workspace.map_image import MapDescription, read_image
 
 __all__ = ["dumps", "load_scenario", "loads", "verify"]
@@ -196,7 +197,7 @@ def _raise_first(findings: list[Finding], document: Document, name: str) -> None
 
 def _finding(details: ErrorDetails, kind: type[BaseModel]) -> Finding:
     """Return a validation error in the words of this project."""
-    place: Place = details["loc"]
+    place: Place = tuple(part for part in details["loc"] if part not in ACTION_FORMS)
     found = _shown(details["input"])
     if place[-1:] == ("[key]",):
         what = f"{found} is no name; expected a letter, then letters, digits and single underscores"
@@ -226,6 +227,8 @@ def _fields(root: type[BaseModel], place: Place) -> frozenset[str]:
         is_model = isinstance(section, type) and issubclass(section, BaseModel)
         # Between sections there are only mappings from names to sections.
         section = section.model_fields[part].annotation if is_model else get_args(section)[-1]
+        if section == AnyAction:
+            section = Action
         if isinstance(section, UnionType):
             section, _ = get_args(section)  # or None
     named = frozenset(section.model_fields)

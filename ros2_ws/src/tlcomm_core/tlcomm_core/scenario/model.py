@@ -1,18 +1,22 @@
 """The scenario's fields, their types and ranges, one class per section of the file.
 
-``Scenario`` holds ``Workspace`` (with ``Region``), ``Communication``, ``Drive``, ``Noise`` and
-``Agent`` (with ``DriveOverride`` and ``Soft``). What fields mean together is checked in ``checks``.
+``Scenario`` holds ``Workspace`` (with ``Region``), ``Communication``, ``Drive``, ``Noise``,
+``Action`` and ``Agent`` (with ``DriveOverride`` and ``Soft``). What fields mean together is checked
+in ``checks``.
 """
 
 from typing import Annotated, Final
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
 __all__ = [
+    "ACTION_FORMS",
     "MAX_AGENTS",
     "MAX_OBSTACLES",
     "MAX_TASKS",
+    "Action",
     "Agent",
+    "AnyAction",
     "Communication",
     "Drive",
     "DriveOverride",
@@ -99,6 +103,34 @@ class Noise(_Section):
     angular: Share = 0.0
 
 
+class Action(_Section):
+    """How long an action takes, where it is possible, and after which others.
+
+    It is possible in the regions ``at`` only, if any are given, and only when each of the actions
+    ``after`` has been performed since it was last performed itself.
+    """
+
+    duration_s: NotNegative
+    at: Annotated[tuple[Name, ...], Field(min_length=1, max_length=MAX_REGIONS)] | None = None
+    after: Annotated[tuple[Name, ...], Field(max_length=MAX_REGIONS)] = ()
+
+
+ACTION_FORMS: Final = ("[duration]", "[action]")
+"""What the two forms of an action are called in places of validation errors."""
+
+
+def _action_form(value: object) -> str:
+    return ACTION_FORMS[isinstance(value, dict | Action)]
+
+
+# A number is a duration: most actions need nothing first.
+AnyAction = Annotated[
+    Annotated[NotNegative, Tag(ACTION_FORMS[0])] | Annotated[Action, Tag(ACTION_FORMS[1])],
+    Discriminator(_action_form),
+]
+Actions = Annotated[dict[Name, AnyAction], Field(max_length=MAX_REGIONS)]
+
+
 class Soft(_Section):
     """A task to be satisfied as much as possible, and the price of each atom that violates it."""
 
@@ -119,7 +151,7 @@ class Agent(_Section):
     tasks: Annotated[tuple[str, ...], Field(max_length=MAX_TASKS)] = ()
     soft: Soft | None = None
     motion: DriveOverride = DriveOverride()
-    actions: dict[Name, NotNegative] = {}
+    actions: Actions = {}
 
     @property
     def hard_tasks(self) -> tuple[str, ...]:
@@ -141,7 +173,7 @@ class Scenario(_Section):
     communication: Communication
     motion: Drive
     noise: Noise = Noise()
-    actions: Annotated[dict[Name, NotNegative], Field(max_length=MAX_REGIONS)] = {}
+    actions: Actions = {}
     agents: Annotated[dict[Name, Agent], Field(min_length=1, max_length=MAX_AGENTS)]
 
     def drive_of(self, agent: str) -> Drive:
@@ -151,7 +183,15 @@ class Scenario(_Section):
 
     def actions_of(self, agent: str) -> dict[str, float]:
         """Return the durations (s) of an agent's actions, its own over the team's."""
-        return self.actions | self.agents[agent].actions
+        return {
+            name: action.duration_s if isinstance(action, Action) else action
+            for name, action in (self.actions | self.agents[agent].actions).items()
+        }
+
+    def conditional_actions_of(self, agent: str) -> dict[str, Action]:
+        """Return those of an agent's actions that are given with more than a duration."""
+        actions = self.actions | self.agents[agent].actions
+        return {name: action for name, action in actions.items() if isinstance(action, Action)}
 
     @property
     def position_tolerance_m(self) -> float:

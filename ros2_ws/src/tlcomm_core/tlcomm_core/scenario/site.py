@@ -5,6 +5,7 @@
 ``region_location``  the location at which a region is visited
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Self
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 
 from tlcomm_core.geometry import Pose
 from tlcomm_core.scenario.model import Region, Scenario, Workspace
-from tlcomm_core.workspace.grid import Grid
+from tlcomm_core.workspace.grid import Disc, Grid
 from tlcomm_core.workspace.travel import Motion
 
 __all__ = ["Site", "grid_of", "region_location"]
@@ -28,11 +29,15 @@ class Site:
         scenario: as loaded.
         grid: cells and locations.
         region_location: the location at which each region is visited.
+        region_discs: each region's middle and radius (x, y, r) in metres.
+        regions_beside: for each region the others whose discs overlap with its own.
     """
 
     scenario: Scenario
     grid: Grid
     region_location: MappingProxyType[str, int]
+    region_discs: MappingProxyType[str, Disc]
+    regions_beside: MappingProxyType[str, frozenset[str]]
     _members: tuple[tuple[str, NDArray[np.intp]], ...]
 
     @classmethod
@@ -46,7 +51,16 @@ class Site:
             assert location is not None, "checks have refused regions without a free centre"
             locations[name] = location
             members.append((name, grid.locations_within(*region.at_m, region.radius_m)))
-        return cls(scenario, grid, MappingProxyType(locations), tuple(members))
+        regions = scenario.workspace.regions
+        discs = {name: (*region.at_m, region.radius_m) for name, region in regions.items()}
+        return cls(
+            scenario=scenario,
+            grid=grid,
+            region_location=MappingProxyType(locations),
+            region_discs=MappingProxyType(discs),
+            regions_beside=MappingProxyType(_overlaps(discs)),
+            _members=tuple(members),
+        )
 
     @property
     def planned_range_m(self) -> float:
@@ -86,3 +100,14 @@ def region_location(grid: Grid, region: Region) -> int | None:
         return None
     offsets = grid.locations_m[inside] - np.array(region.at_m)
     return int(inside[np.argmin(np.hypot(offsets[:, 0], offsets[:, 1]))])
+
+
+def _overlaps(discs: Mapping[str, Disc]) -> dict[str, frozenset[str]]:
+    """Return for each disc the names of the others that it shares a point with."""
+    x_m, y_m, radius_m = np.array(list(discs.values())).T
+    overlaps: dict[str, frozenset[str]] = {}
+    for name, (own_x_m, own_y_m, own_radius_m) in discs.items():
+        near = np.hypot(x_m - own_x_m, y_m - own_y_m) <= radius_m + own_radius_m
+        names = {other for other, is_near in zip(discs, near.tolist(), strict=True) if is_near}
+        overlaps[name] = frozenset(names - {name})
+    return overlaps

@@ -1,26 +1,55 @@
-"""Travel times on one grid for whatever motions its agents have.
+"""Travel times on one grid for whatever motions its agents have, and whatever they avoid.
 
-``Atlas``  travel times by motion, shared by all that drive alike
+``Atlas``  travel times by motion and avoided regions, shared by all that drive alike
 """
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Final
 
-from tlcomm_core.workspace.grid import Grid
+from tlcomm_core.workspace.grid import Disc, Grid
 from tlcomm_core.workspace.travel import Motion, TravelTimes
 
 __all__ = ["Atlas"]
 
+_NO_REGIONS: Final[Mapping[str, Disc]] = MappingProxyType({})
+
 
 class Atlas:
-    """Travel times by motion, made when they are first asked for."""
+    """Travel times by motion and avoided regions, made when they are first asked for."""
 
-    def __init__(self, grid: Grid) -> None:
-        """Begin without any."""
+    def __init__(self, grid: Grid, regions: Mapping[str, Disc] = _NO_REGIONS) -> None:
+        """Begin without any.
+
+        Args:
+            grid: what all drive on.
+            regions: what can be avoided, by name.
+        """
         self.grid: Final = grid
-        self._travel: dict[Motion, TravelTimes] = {}
+        self._regions: Final = regions
+        self._grids: dict[frozenset[str], Grid] = {frozenset(): grid}
+        self._travel: dict[tuple[Motion, frozenset[str]], TravelTimes] = {}
 
-    def travel(self, motion: Motion) -> TravelTimes:
-        """Return the travel times of a motion; the same object for equal motions."""
-        if motion not in self._travel:
-            self._travel[motion] = TravelTimes(self.grid, motion)
-        return self._travel[motion]
+    def knows(self, regions: frozenset[str]) -> bool:
+        """Return whether these are regions that can be avoided."""
+        return regions <= self._regions.keys()
+
+    def grid_avoiding(self, avoided: frozenset[str]) -> Grid:
+        """Return the grid on which no move enters a cell that shares area with some regions.
+
+        The same object for equal regions.
+        """
+        if avoided not in self._grids:
+            cells = {name: self.grid.touched_by(*self._regions[name]) for name in sorted(avoided)}
+            self._grids[avoided] = self.grid.avoiding(cells)
+        return self._grids[avoided]
+
+    def travel(self, motion: Motion, avoided: frozenset[str] = frozenset()) -> TravelTimes:
+        """Return the travel times of a motion that keeps out of some regions.
+
+        The same object for equal motions and regions.
+        """
+        key = (motion, avoided)
+        if key not in self._travel:
+            self._travel[key] = TravelTimes(self.grid_avoiding(avoided), motion)
+        return self._travel[key]

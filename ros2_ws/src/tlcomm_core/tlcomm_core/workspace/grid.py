@@ -3,11 +3,13 @@
 ``Grid``          cells, their centres (*locations*) and the moves between them
 ``HEADING_STEPS`` cell steps (columns, rows) of the eight lattice headings, 45° apart from +x on
 ``Box``           a closed rectangle: x_min, y_min, x_max, y_max in metres
+``Disc``          a closed disc: x, y of its middle and radius in metres
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
+from types import MappingProxyType
 from typing import Final, TypeVar
 
 import numpy as np
@@ -15,13 +17,16 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-__all__ = ["HEADING_STEPS", "Box", "Grid"]
+__all__ = ["HEADING_STEPS", "Box", "Disc", "Grid"]
 
 Box = tuple[float, float, float, float]
+Disc = tuple[float, float, float]
 
 HEADING_STEPS: Final = ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1))
 
 _Array = TypeVar("_Array", bound=NDArray[np.generic])
+
+_NOTHING: Final[Mapping[str, NDArray[np.intp]]] = MappingProxyType({})
 
 # Share of a cell that a box may overlap, or a size fall short, through rounding alone.
 _ROUNDING_SHARE: Final = 1e-6
@@ -32,7 +37,7 @@ class Grid:
 
     A *location* is an index z into ``locations_m``, the centres of the free cells. A cell is
     closed when an obstacle covers some of its area; touching edges don't count, and obstacles are
-    not inflated.
+    not inflated. What is to be avoided keeps its locations, but no move leads there.
 
     Attributes:
         cell_m: edge length of a cell.
@@ -41,6 +46,7 @@ class Grid:
         boxes: the obstacles as given, float[B, 4] in metres; read-only.
         free: bool[rows, columns]; read-only.
         locations_m: centres of the free cells, float[Z, 2], by y, then x; read-only.
+        avoided: by name, the locations that no move leads to or from.
     """
 
     def __init__(
@@ -49,6 +55,7 @@ class Grid:
         cell_m: float,
         boxes: Sequence[Box] | NDArray[np.float64] = (),
         origin_m: tuple[float, float] = (0.0, 0.0),
+        avoided: Mapping[str, NDArray[np.intp]] = _NOTHING,
     ) -> None:
         """Lay cells over a rectangle and close those that an obstacle covers in part.
 
@@ -57,6 +64,7 @@ class Grid:
             cell_m: edge length of a cell.
             boxes: closed rectangles (x_min, y_min, x_max, y_max); may reach outside.
             origin_m: lower left corner.
+            avoided: what no move leads to or from: locations by name.
         """
         self.cell_m: Final = cell_m
         self.origin_m: Final = origin_m
@@ -70,6 +78,7 @@ class Grid:
         occupied_rows, occupied_columns = np.nonzero(free)
         cells = np.column_stack((occupied_columns, occupied_rows))
         self.locations_m: Final = _read_only(np.array(origin_m) + (cells + 0.5) * cell_m)
+        self.avoided: Final = avoided
 
     def __len__(self) -> int:
         """Return the number of locations Z."""
@@ -102,6 +111,23 @@ class Grid:
         """Return the locations, in order, whose centres lie in a closed disc. Cost: O(Z)."""
         return np.flatnonzero(self._distances_m(x_m, y_m) <= radius_m)
 
+    def touched_by(self, x_m: float, y_m: float, radius_m: float) -> NDArray[np.intp]:
+        """Return the locations, in order, whose cells share more than an edge with a disc.
+
+        Cost: O(Z).
+        """
+        beyond_m = np.abs(self.locations_m - (x_m, y_m)) - self.cell_m / 2.0
+        gap_m = np.hypot(*np.maximum(beyond_m, 0.0).T)
+        return np.flatnonzero(gap_m < radius_m - _ROUNDING_SHARE * self.cell_m)
+
+    def avoiding(self, avoided: Mapping[str, NDArray[np.intp]]) -> "Grid":
+        """Return a grid of the same locations, equally numbered, some of which no move touches.
+
+        Args:
+            avoided: what to avoid instead of what this grid does: locations by name.
+        """
+        return Grid(self.size_m, self.cell_m, self.boxes, self.origin_m, avoided)
+
     def near(self, location: int, range_m: float) -> NDArray[np.bool_]:
         """Tell for every location whether it is within ``range_m`` of ``location``. Cost: O(Z)."""
         x_m, y_m = self.locations_m[location]
@@ -111,16 +137,20 @@ class Grid:
     def moves(self) -> NDArray[np.int32]:
         """The neighbour of each location along each lattice heading, int32[Z, 8]; -1 for none.
 
-        A diagonal move needs both cells beside it free: no corner is cut. Read-only.
+        A diagonal move needs both cells beside it free and not avoided: no corner is cut.
+        Read-only.
         """
         padded = np.full((self.shape[0] + 2, self.shape[1] + 2), -1, dtype=np.int32)
         padded[1:-1, 1:-1] = self._index
+        closed = [location for own in self.avoided.values() for location in own.tolist()]
+        padded[np.isin(padded, closed)] = -1
         rows, columns = (indices + 1 for indices in np.nonzero(self.free))
         moves = np.empty((len(self), 8), dtype=np.int32)
         for heading, (dx, dy) in enumerate(HEADING_STEPS):
             target = padded[rows + dy, columns + dx]
             open_sides = (padded[rows, columns + dx] >= 0) & (padded[rows + dy, columns] >= 0)
             moves[:, heading] = np.where(open_sides, target, -1)
+        moves[closed] = -1
         return _read_only(moves)
 
     @cached_property

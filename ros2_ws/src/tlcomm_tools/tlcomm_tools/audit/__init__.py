@@ -6,6 +6,8 @@
 ``formula``     formulas read and evaluated on finite words
 ``progress``    what a word says of a task: the runtime monitor's verdict
 ``tasks``       each task's verdict and satisfactions
+``trespass``    whether agents kept out of what their tasks forbid
+``conditions``  whether actions had what they need first
 ``strategies``  whether all agents hold the same strategies
 ``findings``    all of it as one document
 

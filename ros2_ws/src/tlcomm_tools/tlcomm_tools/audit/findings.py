@@ -5,14 +5,17 @@
 ``audit_run``     audits a recorded run
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Final
 
 from tlcomm_core.scenario.model import Scenario
+from tlcomm_tools.audit.conditions import audit_conditions
 from tlcomm_tools.audit.links import WindowFinding, judge_windows, team_intervals
 from tlcomm_tools.audit.strategies import StrategyFinding, audit_strategies
 from tlcomm_tools.audit.tasks import TaskFinding, audit_task
-from tlcomm_tools.audit.tracks import build_tracks
+from tlcomm_tools.audit.tracks import Track, build_tracks
+from tlcomm_tools.audit.trespass import audit_trespass
 from tlcomm_tools.bag.reader import RecordedRun
 
 __all__ = ["AUDIT_FORMAT", "Audit", "audit_run"]
@@ -100,6 +103,7 @@ def audit_run(scenario: Scenario, run: RecordedRun) -> Audit:
         *faults,
         *missed,
         *(line for own in tasks for line in own.violations),
+        *(line for own in agents for line in _breaches(scenario, own, run, track_of.get(own))),
         *strategies.violations,
     ]
     return Audit(
@@ -111,3 +115,12 @@ def audit_run(scenario: Scenario, run: RecordedRun) -> Audit:
         strategies=strategies,
         violations=tuple(violations),
     )
+
+
+def _breaches(
+    scenario: Scenario, agent: str, run: RecordedRun, track: Track | None
+) -> Iterator[str]:
+    """Say where an agent was, or what it did, that it may not."""
+    events = [record for record in run.records.tasks if record.agent == agent]
+    yield from audit_trespass(scenario, agent, track)
+    yield from audit_conditions(scenario, agent, events, track)

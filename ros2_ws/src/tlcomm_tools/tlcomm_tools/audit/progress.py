@@ -51,7 +51,11 @@ class Progress:
 
 def follow(task: Formula | BuchiAutomaton, word: Sequence[Letter]) -> Progress:
     """Return the progress of a formula, or of an automaton given instead, along a word."""
-    runs = RunMonitor(task if isinstance(task, BuchiAutomaton) else translate(task))
+    try:
+        runs = RunMonitor(task if isinstance(task, BuchiAutomaton) else translate(task))
+    except IntractableTaskError:
+        # It could be planned for the letters of its system alone; what else may follow is open.
+        return Progress(None, None, None)
     watching: Monitor | RunMonitor = runs
     if isinstance(task, Formula):
         # Where it is the negation that has no small automaton, the runs are all there is.

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
+from tlcomm_core.agent.avoidance import travel_of
 from tlcomm_core.agent.member import local_plan
 from tlcomm_core.game.algorithm import solve
 from tlcomm_core.ltl import parse, translate
@@ -17,7 +18,7 @@ from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate
 from tlcomm_core.units import seconds
-from tlcomm_core.workspace.travel import TravelTimes
+from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_tools.limit import time_limit_s
 from tlcomm_tools.problems import PROBLEMS, Problem
 from tlcomm_tools.rounds import pose_round
@@ -102,7 +103,7 @@ def _measure_planning(problem: Problem, repeats: int) -> dict[str, Any]:
 
 
 def _plan(name: str, site: Site) -> None:
-    local_plan(name, site, TravelTimes(site.grid, site.motion_of(name)))
+    local_plan(name, site, travel_of(name, site, Atlas(site.grid, site.region_discs)))
 
 
 def _median_s(work: Callable[[], object], repeats: int) -> float:

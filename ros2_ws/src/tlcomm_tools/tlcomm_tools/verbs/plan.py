@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
+from tlcomm_core.agent.avoidance import travel_of
 from tlcomm_core.agent.member import explained_plan, local_plan
 from tlcomm_core.errors import InputError
 from tlcomm_core.planning.explanation import Explanation, Rival
@@ -15,7 +16,7 @@ from tlcomm_core.planning.plan import LocalPlan, PlanStep
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.model import Soft
 from tlcomm_core.scenario.site import Site
-from tlcomm_core.workspace.travel import TravelTimes
+from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_number, format_table
 from tlcomm_tools.verbs.options import positive_fraction, print_json
@@ -67,7 +68,7 @@ def run(options: Namespace) -> Status:
 def _plan(name: str, site: Site, objective: Objective, *, is_explained: bool) -> dict[str, Any]:
     agent = site.scenario.agents[name]
     begun_s = time.perf_counter()
-    travel = TravelTimes(site.grid, site.motion_of(name))
+    travel = travel_of(name, site, Atlas(site.grid, site.region_discs))
     plan = local_plan(name, site, travel, objective)
     planning_wall_s = time.perf_counter() - begun_s
     stem, loop = plan.word
@@ -102,6 +103,7 @@ def _rival(rival: Rival) -> dict[str, Any]:
     return {
         "without": {"from": move.source, "to": move.target, "action": move.action},
         "suffix_s": None if plan is None else plan.suffix_s,
+        "suffix_price_s": None if plan is None else plan.suffix_price_s,
         "first_s": None if plan is None else plan.first_s,
     }
 
@@ -189,17 +191,18 @@ def _format_explanation(plan: Mapping[str, Any]) -> str:
     explanation = plan.get("explanation")
     if explanation is None:
         return ""
-    rivals = explanation["rivals"]
+    figures = {"suffix_s": "suffix/s", "first_s": "first/s"}
+    if plan["soft"] is not None:
+        figures["suffix_price_s"] = "price/s"
     rows = [
         (
             _format_move(rival["without"]),
-            format_number(rival["suffix_s"], 2),
-            format_number(rival["first_s"], 2),
+            *(format_number(rival[figure], 2) for figure in figures),
             "second best" if rival == explanation["second_best"] else "",
         )
-        for rival in rivals
+        for rival in explanation["rivals"]
     ]
-    header = ("suffix without", "suffix/s", "first/s", "")
+    header = ("suffix without", *figures.values(), "")
     return f"\n  why   {_reason(plan)}\n{format_table(header, rows)}"
 
 
@@ -207,10 +210,17 @@ def _reason(plan: Mapping[str, Any]) -> str:
     second_best = plan["explanation"]["second_best"]
     if second_best is None:
         return "it is the only suffix: each of its moves is needed"
+    price_s = None if plan["soft"] is None else plan["soft"]["suffix_price_s"]
     return (
         f"the second best does without {_format_move(second_best['without'])}: "
-        f"{second_best['suffix_s']:.2f} s against {plan['suffix_s']:.2f} s"
+        f"{_format_cost(second_best['suffix_s'], second_best['suffix_price_s'])} against "
+        f"{_format_cost(plan['suffix_s'], price_s)}"
     )
+
+
+def _format_cost(suffix_s: float, price_s: float | None) -> str:
+    """Return a suffix's time, and the price of what it violates."""
+    return f"{suffix_s:.2f} s" + (f" + {price_s:.2f} s" if price_s else "")
 
 
 def _format_move(move: Mapping[str, Any]) -> str:

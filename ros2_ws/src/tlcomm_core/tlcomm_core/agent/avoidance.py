@@ -1,0 +1,86 @@
+"""Driving that never touches what an agent's task forbids for ever.
+
+``hard_task``        what its plan must satisfy
+``avoided_regions``  the regions that an agent keeps out of
+``travel_of``        its travel times, keeping out of them
+``obstruction``      what that makes impossible
+"""
+
+from tlcomm_core.errors import PlanningError
+from tlcomm_core.geometry import Pose
+from tlcomm_core.ltl import Formula, atoms, conjunction, forbidden, parse
+from tlcomm_core.scenario.site import Site
+from tlcomm_core.workspace.atlas import Atlas
+from tlcomm_core.workspace.travel import TravelTimes
+
+__all__ = ["avoided_regions", "hard_task", "obstruction", "travel_of"]
+
+
+def hard_task(name: str, site: Site) -> Formula:
+    """Return all that an agent's plan must satisfy, as one formula."""
+    return conjunction([parse(task) for task in site.scenario.agents[name].hard_tasks])
+
+
+def avoided_regions(name: str, site: Site, task: Formula, start: Pose) -> frozenset[str]:
+    """Return the regions in which an agent never satisfies its task, whatever it does there.
+
+    Args:
+        name: the agent's name.
+        site: the scenario.
+        task: the agent's task.
+        start: where it begins with it.
+
+    Raises:
+        PlanningError: the agent starts in a cell that such a region touches.
+    """
+    actions = site.action_durations(name).keys()
+    beside = {region: actions | others for region, others in site.regions_beside.items()}
+    avoided = forbidden(task, beside)
+    home = site.grid.location_at(start.x_m, start.y_m)
+    for region in sorted(avoided):
+        if home in site.grid.touched_by(*site.region_discs[region]):
+            raise PlanningError(
+                f"region {region!r} is forbidden always, but the start "
+                f"({start.x_m!r}, {start.y_m!r}) lies in a cell that it touches; move the start"
+            )
+    return avoided
+
+
+def travel_of(name: str, site: Site, atlas: Atlas, segment_allowance_s: float = 0.0) -> TravelTimes:
+    """Return an agent's travel times for its tasks, keeping out of what these forbid always.
+
+    Raises:
+        PlanningError: the agent starts in such a region.
+    """
+    try:
+        avoided = avoided_regions(name, site, hard_task(name, site), site.start_of(name))
+    except PlanningError as error:
+        place = "tasks" if site.scenario.agents[name].tasks else "task"
+        raise PlanningError(f"agents.{name}.{place}: {error}") from error
+    return atlas.travel(site.motion_of(name, segment_allowance_s), avoided)
+
+
+def obstruction(site: Site, start: int, task: Formula, travel: TravelTimes) -> str:
+    """Return which of the regions that a task names are out of reach because of others; or "".
+
+    Args:
+        site: the scenario.
+        start: the location that the agent starts at.
+        task: its task.
+        travel: its travel times.
+    """
+    free, left = site.grid.components, travel.grid.components
+    named = [region for region in atoms(task) if region in site.region_location]
+    lost = [
+        region
+        for region in named
+        if region not in travel.grid.avoided
+        and free[site.region_location[region]] == free[start]
+        and left[site.region_location[region]] != left[start]
+    ]
+    if not lost:
+        return ""
+    around = ", ".join(map(repr, sorted(travel.grid.avoided)))
+    return (
+        f"{', '.join(map(repr, lost))} can't be reached without touching {around}, forbidden always"
+    )
