@@ -160,8 +160,8 @@ class Agent(_Section):
 
     @property
     def whole_task(self) -> str:
-        """All that must be satisfied, as one formula; ``""`` beside an automaton."""
-        parts = self.hard_tasks
+        """All that must be satisfied, as one formula; ``true`` beside an automaton."""
+        parts = self.hard_tasks or ("true",)
         return parts[0] if len(parts) == 1 else " & ".join(f"({part})" for part in parts)
 
 

@@ -73,7 +73,7 @@ def _plan(name: str, site: Site, objective: Objective, *, is_explained: bool) ->
     planning_wall_s = time.perf_counter() - begun_s
     stem, loop = plan.word
     told: dict[str, Any] = {
-        "task": agent.whole_task or None,
+        "task": agent.whole_task if agent.automaton is None else None,
         "soft": None if agent.soft is None else _soft(agent.soft, plan),
         "prefix": [_step(step, site) for step in plan.prefix],
         "suffix": [_step(step, site) for step in plan.suffix],
