@@ -3,7 +3,12 @@
 import pytest
 
 from support.small_plant import SmallPlant
-from tlcomm_core.errors import LocalMisuseError, UnreachableTaskError, UnsatisfiableTaskError
+from tlcomm_core.errors import (
+    IntractableTaskError,
+    LocalMisuseError,
+    UnreachableTaskError,
+    UnsatisfiableTaskError,
+)
 from tlcomm_core.ltl import parse, translate
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.planning.relaxation import Relaxed, Strict, soft_task
@@ -75,6 +80,16 @@ def test_a_soft_task_needs_a_word_and_a_price() -> None:
     assert soft_task(parse("false"), 0.0) is None
     with pytest.raises(LocalMisuseError, match=r"-1\.0"):
         soft_task(parse("p"), -1.0)
+
+
+def test_a_product_that_is_too_large_is_refused() -> None:
+    """The message gives the sizes; the same task without a soft one is planned."""
+    many = SmallPlant().system(actions={f"a{number}": 1.0 for number in range(400)})
+    soft = soft_task(parse(" & ".join(f"F a{number}" for number in range(8))), 1.0)
+    task = parse("G F (p & a1)")
+    with pytest.raises(IntractableTaskError, match=r"256 of the soft task's .* too large"):
+        plan_task(task, many, soft=soft)
+    assert plan_task(task, many).suffix
 
 
 def test_without_a_soft_task_nothing_is_priced() -> None:

@@ -7,7 +7,7 @@ import pytest
 from support.small_plant import SmallPlant
 from tlcomm_core.errors import UnreachableTaskError, UnsatisfiableTaskError
 from tlcomm_core.geometry import Pose
-from tlcomm_core.ltl import parse
+from tlcomm_core.ltl import parse, read_hoa, to_hoa, translate
 from tlcomm_core.planning.lasso import Objective
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
 from tlcomm_core.planning.synthesis import plan_task
@@ -89,6 +89,23 @@ def test_what_is_out_of_reach_has_no_plan() -> None:
     """Others could do it."""
     with pytest.raises(UnreachableTaskError, match="'G F vault' can't be done"):
         plan("G F vault & G F p")
+
+
+def test_an_automaton_is_used_as_it_is() -> None:
+    """What a formula's automaton becomes in HOA and back plans as the formula does."""
+    formula = parse("G F (p & collect & F (r & unload))")
+    automaton = read_hoa(to_hoa(translate(formula), formula))
+    assert plan_task(automaton, SYSTEM) == plan_task(formula, SYSTEM)
+
+
+def test_an_automaton_without_a_plan_says_so() -> None:
+    """It has no text to quote."""
+    text = 'HOA: v1 Start: 0 AP: 1 "p" Acceptance: 1 Inf(0) --BODY-- State: 0 [0] 0 --END--'
+    with pytest.raises(UnsatisfiableTaskError, match=r"^the automaton contradicts itself"):
+        plan_task(read_hoa(text), SYSTEM)
+    text = text.replace("[0] 0", "[0] 0 {0}")
+    with pytest.raises(UnreachableTaskError, match=r"^the automaton can't be done: "):
+        plan_task(read_hoa(text), SYSTEM)
 
 
 def test_the_word_begins_with_the_start() -> None:

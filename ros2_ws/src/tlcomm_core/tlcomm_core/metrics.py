@@ -19,6 +19,7 @@ from tlcomm_core.agent.timing import RoundTiming
 from tlcomm_core.game.strategy import TeamStrategy
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
+from tlcomm_core.scenario.task import read_automaton
 from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.windows import Window, judge_windows
 from tlcomm_core.world.observation import Connectivity
@@ -132,10 +133,15 @@ def connected_intervals(connectivity: Sequence[Connectivity], end_ns: int) -> li
 def patience_s(scenario: Scenario, agent: str) -> float:
     """Return the longest that an agent's task may go without being satisfied, if nothing fails.
 
-    Every window leaves time for at least one more action of the task; two windows are spare.
+    Every window leaves time for at least one more action of the task; two windows are spare. A
+    given automaton is taken to need an action per state.
     """
-    words = re.findall(r"\w+", scenario.agents[agent].whole_task)
-    actions = sum(word in scenario.actions_of(agent) for word in words)
+    own = scenario.agents[agent]
+    if own.automaton is not None:
+        actions = read_automaton(own.automaton).state_count
+    else:
+        words = re.findall(r"\w+", own.whole_task)
+        actions = sum(word in scenario.actions_of(agent) for word in words)
     return (actions + _SPARE_WINDOWS) * scenario.communication.period_s
 
 

@@ -263,19 +263,122 @@ def test_the_last_round_may_be_cut() -> None:
     assert audit(records).violations == ()
 
 
-def test_tasks_of_other_forms_are_not_recomputed() -> None:
-    """A formula that isn't □◇φ is told as not available, not as satisfied or violated."""
+def audit_with(task: str, records: RunRecords | None = None) -> Audit:
+    """Audit the run as if west, which picked at 5 s and at 15 s, had another task."""
     scenario = hand_made_scenario()
-    agent = scenario.agents["west"].model_copy(update={"task": "G F (left & pick) & G !right"})
+    agent = scenario.agents["west"].model_copy(update={"task": task})
     changed = scenario.model_copy(update={"agents": {**scenario.agents, "west": agent}})
-    run = RecordedRun(hand_made_records(), AGENTS, 25 * S, {}, "")
-    found = audit_run(changed, run)
+    run = RecordedRun(records or hand_made_records(), AGENTS, 25 * S, {}, "")
+    return audit_run(changed, run)
+
+
+def without_claims() -> RunRecords:
+    """Return the run's records without what west said of its task."""
+    records = hand_made_records()
+    records.tasks = [
+        own
+        for own in records.tasks
+        if (own.agent, own.event.kind) != ("west", TaskEventKind.TASK_SATISFIED)
+    ]
+    return records
+
+
+def test_other_forms_are_counted_by_their_automaton() -> None:
+    """Where only one run is possible its accepting transitions are the satisfactions."""
+    found = audit_with("G F (left & pick) & G !right")
     assert found.violations == ()
     assert found.document()["tasks"]["west"] == {
         "claimed": 2,
-        "satisfied": None,
+        "satisfied": 2,
         "longest_gap_s": None,
+        "verdict": "kept",
+        "settled_s": None,
     }
+    records = hand_made_records()
+    claim_more(records)
+    assert audit_with("G F (left & pick) & G !right", records).violations == (
+        "west: task claimed satisfied 3 times, by its steps it was 2 times",
+    )
+
+
+@pytest.mark.parametrize(
+    ("formula", "verdict", "settled_s"),
+    [
+        ("F (left & pick)", "fulfilled", 5.0),
+        ("F (left & X left)", "fulfilled", 15.0),
+        ("F G left", "kept", None),
+        ("F right", "pending", None),
+        ("G F left & G F right", "pending", None),
+        ("G (pick -> X !pick)", "violated", 15.0),
+        ("G !left", "violated", 5.0),
+        ("left | right", "violated", 0.0),
+        ("G F left & F G !left & G pick", "violated", 0.0),
+    ],
+)
+def test_every_task_has_a_verdict(formula: str, verdict: str, settled_s: float | None) -> None:
+    """Each of the four, with the time at which it became final, and failing if violated."""
+    found = audit_with(formula, without_claims())
+    own = found.tasks[1]
+    assert (own.verdict, own.settled_s) == (verdict, pytest.approx(settled_s))
+    of_verdict = [line for line in found.violations if "violated" in line]
+    assert len(of_verdict) == (verdict == "violated")
+
+
+def test_a_violation_says_who_when_and_by_what() -> None:
+    """The line has the agent, the time, and what was true."""
+    assert audit_with("G (left -> !pick)", without_claims()).violations == (
+        "west: task violated at 5.000 s; what was true then: {left, pick}",
+    )
+    assert audit_with("F pick & G !pick", without_claims()).violations == (
+        "west: task violated at 0.000 s; nothing satisfies it",
+    )
+
+
+AUTOMATON = """HOA: v1 Start: 0 AP: 2 "left" "pick" Acceptance: 1 Inf(0) --BODY--
+State: 0 {} --END--"""
+
+
+@pytest.mark.parametrize(
+    ("edges", "verdict", "settled_s", "satisfied"),
+    [
+        ("[!0] 0 [0&!1] 0 [0&1] 0 {0}", "kept", None, 2),
+        ("[!0] 0 [0&!1] 0 {0} [0&1] 0", "pending", None, 0),
+        ("[!0] 0 {0} [0] 1 {0} State: 1 [!0] 1 {0}", "violated", 15.0, 1),
+        ("[!0] 0 [0] 1 {0} State: 1 [t] 1 {0}", "fulfilled", 5.0, 2),
+        ("[t] 0 [0] 1 State: 1 [0] 1 {0}", None, None, None),
+    ],
+)
+def test_an_automaton_is_followed(
+    edges: str, verdict: str | None, settled_s: float | None, satisfied: int | None
+) -> None:
+    """A given automaton has the same verdicts, and none where several runs leave it open."""
+    scenario = hand_made_scenario()
+    update = {"task": None, "automaton": AUTOMATON.format(edges)}
+    agent = scenario.agents["west"].model_copy(update=update)
+    changed = scenario.model_copy(update={"agents": {**scenario.agents, "west": agent}})
+    own = audit_run(changed, RecordedRun(without_claims(), AGENTS, 25 * S, {}, "")).tasks[1]
+    assert (own.verdict, own.satisfied) == (verdict, satisfied)
+    assert own.settled_s == pytest.approx(settled_s)
+
+
+def test_only_what_the_events_say_is_judged() -> None:
+    """Without west's steps its task is pending, though it stood at its region."""
+    records = without_claims()
+    records.tasks = [
+        own
+        for own in records.tasks
+        if own.agent != "west" or own.event.kind is not TaskEventKind.ACTION_FINISHED
+    ]
+    assert audit_with("F left", records).tasks[1].verdict == "pending"
+
+
+def test_a_task_with_an_intractable_negation_has_a_verdict() -> None:
+    """The task's own automaton tells violations; what several runs leave open isn't told."""
+    names = [f"a{number}" for number in range(13)]
+    free = " | ".join(f"G !{name}" for name in names)
+    assert audit_with(f"({free}) & G !left", without_claims()).tasks[1].verdict == "violated"
+    own = audit_with(free, without_claims()).tasks[1]
+    assert (own.verdict, own.satisfied, own.settled_s) == (None, None, None)
 
 
 def test_a_visit_is_a_step_of_the_word() -> None:

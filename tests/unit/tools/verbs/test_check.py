@@ -1,6 +1,7 @@
 """The verb ``check``."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -45,3 +46,19 @@ def test_check_finds_the_scenario(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert run(capsys, "check", "bag", "--scenario", "line.yaml")[0] == 0
     (tmp_path / "line.yaml").rename(tmp_path / "scenario.yaml")
     assert run(capsys, "check", "bag")[0] == 0
+
+
+def test_check_tells_a_violated_task(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Agent and time are in the table, in the verdict and in JSON; the status is 1."""
+    write_bag(tmp_path / "bag", hand_made_records())
+    text = dumps(hand_made_scenario())
+    (tmp_path / "strict.yaml").write_text(text.replace("G F (left & pick)", "G !(left & pick)"))
+    status, out, _ = run(capsys, "check", "bag", "--scenario", "strict.yaml")
+    assert status == 1
+    assert re.search(r"\n  west .* violated at 5\.000 s\n", out)
+    assert re.search(r"\n  east .* kept\n", out)
+    assert "\n  - west: task violated at 5.000 s; what was true then: {left, pick}\n" in out
+    assert max(map(len, out.splitlines())) <= 80
+    status, out, _ = run(capsys, "check", "bag", "--scenario", "strict.yaml", "--json")
+    found = json.loads(out)["tasks"]["west"]
+    assert (status, found["verdict"], found["settled_s"]) == (1, "violated", 5.0)

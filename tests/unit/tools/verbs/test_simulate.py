@@ -97,3 +97,22 @@ def test_a_failed_property_is_status_1(
     assert status == 1
     assert "verdict: FAILED\n  - window 1 missed" in out
     assert (tmp_path / "mine" / "result.json").is_file()
+
+
+def test_an_automaton_stands_for_a_task(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Made by another tool, it is planned and carried out, and goes into the run's scenario."""
+    task = "G F ((west_shelf & pick) & F (west_bench & place))"
+    (tmp_path / "west.hoa").write_text(run(capsys, "ltl", task, "--hoa")[1], "utf-8")
+    text = Path(CORRIDOR).read_text("utf-8")
+    (tmp_path / "hoa.yaml").write_text(text.replace(f'task: "{task}"', "automaton: west.hoa"))
+    assert run(capsys, "validate", "hoa.yaml")[0] == 0
+    status, out, _ = run(capsys, "plan", "hoa.yaml", "--agent", "west")
+    assert (status, out.splitlines()[0]) == (0, "west: the given automaton")
+    results = []
+    for name in (CORRIDOR, "hoa.yaml"):
+        folder = Path(name).stem
+        status, out, _ = run(capsys, "simulate", name, "--rounds", "2", "--out", folder, "--json")
+        results.append((status, json.loads(out)["agents"]))
+    assert results[0] == results[1]
+    (tmp_path / "west.hoa").unlink()
+    assert run(capsys, "validate", "hoa/scenario.yaml")[0] == 0

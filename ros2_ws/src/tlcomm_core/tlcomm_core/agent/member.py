@@ -38,6 +38,7 @@ from tlcomm_core.protocol.negotiation import Phase
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.scenario.checks import check_formulas
 from tlcomm_core.scenario.site import Site
+from tlcomm_core.scenario.task import task_of
 from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import TravelTimes
@@ -166,13 +167,14 @@ def local_plan(
         PlanningError: there is none; the message says whose.
     """
     system, soft = _system(name, site, travel), _soft_task(name, site)
-    task = hard_task(name, site)
+    agent = site.scenario.agents[name]
+    task = task_of(agent)
     try:
         return plan_task(task, system, objective, soft)
     except PlanningError as error:
-        blocked = obstruction(site, system.states[0].location, task, travel)
+        blocked = obstruction(site, system.states[0].location, hard_task(name, site), travel)
         reason = f"{error}; {blocked}" if blocked else f"{error}"
-        place = "tasks" if site.scenario.agents[name].tasks else "task"
+        place = "tasks" if agent.tasks else "task" if agent.automaton is None else "automaton"
         raise type(error)(f"agents.{name}.{place}: {reason}") from error
 
 
@@ -188,7 +190,7 @@ def explained_plan(
         objective: as for ``local_plan``.
     """
     system, soft = _system(name, site, travel), _soft_task(name, site)
-    return explain_plan(hard_task(name, site), system, objective, soft)
+    return explain_plan(task_of(site.scenario.agents[name]), system, objective, soft)
 
 
 def _system(name: str, site: Site, travel: TravelTimes) -> TransitionSystem:
@@ -227,7 +229,7 @@ def plan_for(task: str, start: Pose, name: str, site: Site, travel: TravelTimes)
         PlanningError: there is no plan.
     """
     pose = (start.x_m, start.y_m, start.yaw_rad)
-    changed = {"task": task, "tasks": (), "start": pose}
+    changed = {"task": task, "tasks": (), "automaton": None, "start": pose}
     agent = site.scenario.agents[name].model_copy(update=changed)
     scenario = site.scenario.model_copy(update={"agents": {name: agent}})
     for finding in check_formulas(scenario):

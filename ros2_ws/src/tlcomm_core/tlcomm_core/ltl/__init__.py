@@ -10,6 +10,7 @@
 - ``profile``, ``Profile``, ``OpenWord``, ``TemporalClass``   what a formula is, with words as proof
 - ``invariants``, ``forbidden``    what a formula demands of every letter
 - ``Monitor``, ``Verdict``        what a finite part of a word says about a formula
+- ``RunMonitor``                 the same for an automaton
 - ``LassoWord``, ``accepted_word``   endless words as proof
 - ``to_hoa``, ``to_dot``          for other tools
 - ``read_hoa``                    from other tools
@@ -44,6 +45,7 @@ from tlcomm_core.ltl.monitor import Monitor, Verdict
 from tlcomm_core.ltl.normal_form import is_co_safe, negation_normal_form, recurring
 from tlcomm_core.ltl.parser import MAX_LENGTH, MAX_NESTING, explain, parse
 from tlcomm_core.ltl.profile import OpenWord, Profile, TemporalClass, profile
+from tlcomm_core.ltl.run_monitor import RunMonitor
 from tlcomm_core.ltl.tableau import tableau_automaton
 from tlcomm_core.ltl.translation import translate
 from tlcomm_core.ltl.word import LassoWord, accepted_word, word_text
@@ -64,6 +66,7 @@ __all__ = [
     "OpenWord",
     "Operator",
     "Profile",
+    "RunMonitor",
     "TemporalClass",
     "Transition",
     "Verdict",

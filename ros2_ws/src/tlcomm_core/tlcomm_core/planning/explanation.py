@@ -73,7 +73,7 @@ class Explanation:
 
 
 def explain_plan(
-    formula: Formula,
+    task: Formula | BuchiAutomaton,
     system: TransitionSystem,
     objective: Objective = SUFFIX_FIRST,
     soft: SoftTask | None = None,
@@ -81,7 +81,7 @@ def explain_plan(
     """Return the optimal plan and the best ones without each of its suffix's moves.
 
     Args:
-        formula: a task that has a plan.
+        task: one that has a plan.
         system: the agent's transition system.
         objective: what is least, for all of them.
         soft: as for ``plan_task``; what its violation costs counts.
@@ -90,7 +90,7 @@ def explain_plan(
         UnreachableTaskError: there is no plan; ``plan_task`` says why.
     Cost: that of ``plan_task``, and one more search per distinct move, each on twice the product.
     """
-    return _Comparison(formula, system, objective, soft).explanation()
+    return _Comparison(task, system, objective, soft).explanation()
 
 
 class _Comparison:
@@ -98,7 +98,7 @@ class _Comparison:
 
     def __init__(
         self,
-        formula: Formula,
+        task: Formula | BuchiAutomaton,
         system: TransitionSystem,
         objective: Objective,
         soft: SoftTask | None,
@@ -106,11 +106,13 @@ class _Comparison:
         self._soft: Final = soft
         self._system: Final = system
         self._objective: Final = objective
-        self._automaton: Final[BuchiAutomaton] = translate(formula, system.labels)
+        self._automaton: Final[BuchiAutomaton] = (
+            task if isinstance(task, BuchiAutomaton) else translate(task, system.labels)
+        )
         self._product: Final = products.build(system, self._automaton, soft)
         best = optimal_lasso(self._product, objective)
         if best is None:
-            raise UnreachableTaskError(f"task {str(formula)!r} has no plan")
+            raise UnreachableTaskError("the task has no plan")
         self._best: Final = best
         self._move_of: Final = _moves(self._product, system)
 

@@ -44,24 +44,30 @@ Label = frozenset[str]
 _BOOLEAN: Final = frozenset({Operator.ATOM, Operator.NOT, Operator.AND, Operator.OR})
 
 
-def failure(formula: Formula, automaton: BuchiAutomaton, system: TransitionSystem) -> PlanningError:
-    """Return the error that says why no run of the system satisfies a formula.
+def failure(
+    task: Formula | BuchiAutomaton, automaton: BuchiAutomaton, system: TransitionSystem
+) -> PlanningError:
+    """Return the error that says why no run of the system satisfies a task.
 
     It names a smallest set of conjuncts that can't be had together, and what they lack: a region
     or an action that is never to be had, or a place where several things are true at once. Names
     that aren't actions of the system count as regions.
 
     Args:
-        formula: a task without a plan.
+        task: one without a plan; a given automaton is blamed as a whole.
         automaton: the task's.
         system: the agent's transition system.
 
     Cost: ``smallest_conflict`` with a translation and a search of the system's quotient each.
     """
+    if isinstance(task, BuchiAutomaton):
+        if task.is_empty():
+            return UnsatisfiableTaskError("the automaton contradicts itself: no word fits it")
+        return UnreachableTaskError(f"the automaton can't be done: {_reason((), task, system)}")
     if automaton.is_empty() and automaton.kind is not Construction.FOR_LETTERS:
-        return UnsatisfiableTaskError(contradiction(known_conflict(formula)))
+        return UnsatisfiableTaskError(contradiction(known_conflict(task)))
     words = quotient(system)
-    every = conjuncts(formula)
+    every = conjuncts(task)
     parts = smallest_conflict(every, lambda chosen: _is_possible(chosen, words))
     blamed = automaton if parts == every else translate(conjunction(parts), system.labels)
     quoted = " and ".join(repr(str(part)) for part in parts)

@@ -2,6 +2,7 @@
 
 - ``Objective``      what is to be least, exactly: ``Key``
 - ``SUFFIX_FIRST``   the paper's
+- ``Key``            a lasso's value by an objective
 - ``Lasso``          edges of the prefix and of the suffix
 - ``optimal_lasso``  the best one, exactly
 """

@@ -4,6 +4,7 @@
 - ``Reading``   which moves of the automaton they are
 - ``build``     the reachable part
 - ``ticks_ns``  times as integers
+- ``MOST_RELAXED``   limit on products with a soft task
 """
 
 from collections.abc import Iterator, Sequence
@@ -13,6 +14,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from tlcomm_core.errors import IntractableTaskError
 from tlcomm_core.planning.relaxation import (
     Automaton,
     Move,
@@ -23,7 +25,9 @@ from tlcomm_core.planning.relaxation import (
 )
 from tlcomm_core.planning.transition_system import TransitionSystem
 
-__all__ = ["Product", "Reading", "build", "ticks_ns"]
+__all__ = ["MOST_RELAXED", "Product", "Reading", "build", "ticks_ns"]
+
+MOST_RELAXED: Final = 1_000_000
 
 Ints = NDArray[np.int64]
 
@@ -91,13 +95,24 @@ def ticks_ns(time_s: NDArray[np.float64]) -> Ints:
 def build(system: TransitionSystem, automaton: Automaton, soft: SoftTask | None = None) -> Product:
     """Return the reachable part of the product.
 
+    Raises:
+        IntractableTaskError: there is a soft task, and steps times states of the automata together
+            are more than ``MOST_RELAXED``.
+
     Source: Section IV-A, P_i. A run begins in the initial state and reads its label first.
     Cost: linear in the product's edges; the automaton is asked once per state and letter.
     """
     if soft is None:
         return _Builder(system, Strict(automaton), 0).build()
+    relaxed = Relaxed(automaton, soft.automaton)
+    if len(system.source) * relaxed.state_count > MOST_RELAXED:
+        raise IntractableTaskError(
+            f"{len(system.source)} steps of the agent, {automaton.state_count} states of the task's"
+            f" automaton and {soft.automaton.state_count} of the soft task's make a product that"
+            f" is too large (limit {MOST_RELAXED}); simplify the soft task or leave out regions"
+        )
     price_ns = int(ticks_ns(np.array([soft.weight_s]))[0])
-    return _Builder(system, Relaxed(automaton, soft.automaton), price_ns).build()
+    return _Builder(system, relaxed, price_ns).build()
 
 
 @dataclass(frozen=True, slots=True)

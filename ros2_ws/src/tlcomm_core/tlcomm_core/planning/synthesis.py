@@ -1,6 +1,6 @@
 """From a task to the optimal local plan, or to the reason why there is none.
 
-- ``plan_task``     the plan for a formula
+- ``plan_task``     the plan for a formula, or for an automaton
 - ``told``          the plan that a lasso is
 - ``region_named``  what a place is called
 """
@@ -13,6 +13,7 @@ from tlcomm_core.ltl import BuchiAutomaton, Formula, translate
 from tlcomm_core.planning import product as products
 from tlcomm_core.planning.failure import failure
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Lasso, Objective, optimal_lasso
+from tlcomm_core.planning.on_the_fly import essential_part, is_large
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
 from tlcomm_core.planning.product import Product
 from tlcomm_core.planning.relaxation import Move, SoftTask
@@ -22,7 +23,7 @@ __all__ = ["plan_task", "region_named", "told"]
 
 
 def plan_task(
-    formula: Formula,
+    task: Formula | BuchiAutomaton,
     system: TransitionSystem,
     objective: Objective = SUFFIX_FIRST,
     soft: SoftTask | None = None,
@@ -34,25 +35,31 @@ def plan_task(
     so its satisfying step needn't be the last.
 
     Args:
-        formula: the task.
+        task: the formula; or an automaton, which is used as it is.
         system: the agent's transition system.
         objective: what is to be least.
         soft: what is to be satisfied beside the task, as much as is worth its price. Violating it
             adds to the times that the objective speaks about, and the suffix accepts both.
 
     Raises:
-        UnsatisfiableTaskError: no word satisfies the formula.
+        UnsatisfiableTaskError: no word satisfies the task.
         UnreachableTaskError: some word does, but none of a run of the system.
 
+        IntractableTaskError: see ``translate`` and ``essential_part``.
+
     Source: Section IV-A; with a soft task, see ``Relaxed``.
-    Cost: see ``translate``, ``product.build`` and ``optimal_lasso``.
+    Cost: see ``translate``, ``product.build`` and ``optimal_lasso``; for products that may have
+        more than ``MOST_HELD`` edges ``essential_part`` comes first, unless there is a soft task.
     """
-    automaton = translate(formula, system.labels)
-    product = products.build(system, automaton, soft)
+    automaton = task if isinstance(task, BuchiAutomaton) else translate(task, system.labels)
+    part = system
+    if soft is None and is_large(system, automaton):
+        part = essential_part(system, automaton, objective)
+    product = products.build(part, automaton, soft)
     lasso = optimal_lasso(product, objective)
     if lasso is None:
-        raise failure(formula, automaton, system)
-    return told(lasso, product, system, automaton, soft)
+        raise failure(task, automaton, system)
+    return told(lasso, product, part, automaton, soft)
 
 
 def told(

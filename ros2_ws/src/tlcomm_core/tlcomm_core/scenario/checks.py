@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 from scipy.sparse.csgraph import connected_components
 
-from tlcomm_core.errors import FormulaError
+from tlcomm_core.errors import FormulaError, InputError
 from tlcomm_core.ltl.formula import atoms
 from tlcomm_core.ltl.parser import explain, parse
 from tlcomm_core.scenario.conditions import check_conditions
@@ -18,6 +18,7 @@ from tlcomm_core.scenario.document import Place
 from tlcomm_core.scenario.finding import Finding, did_you_mean
 from tlcomm_core.scenario.model import Agent, Scenario, Workspace
 from tlcomm_core.scenario.site import grid_of, region_location
+from tlcomm_core.scenario.task import read_automaton
 from tlcomm_core.workspace.grid import Grid
 
 __all__ = ["MAX_CELLS", "check", "check_formulas"]
@@ -148,14 +149,25 @@ def _starts(scenario: Scenario, grid: Grid) -> Iterator[Finding]:
 def _tasks(scenario: Scenario) -> Iterator[Finding]:
     for name, agent in scenario.agents.items():
         known = {*scenario.workspace.regions, *scenario.actions_of(name)}
+        if not any((agent.task is not None, agent.tasks, agent.automaton is not None)):
+            what = "missing; expected a formula, here or in tasks, or an automaton's file"
+            yield Finding(("agents", name, "task"), what)
+        if agent.automaton is not None:
+            yield from _given_automaton(name, agent, known)
         formulas = [*_hard_tasks(agent)]
-        if not formulas:
-            yield Finding(("agents", name, "task"), "missing; expected a formula, here or in tasks")
         if agent.soft is not None:
             formulas.append((("soft", "task"), agent.soft.task))
         for place, text in formulas:
             for what in _flaws(text, known):
                 yield Finding(("agents", name, *place), what)
+
+
+def _given_automaton(name: str, agent: Agent, known: Collection[str]) -> Iterator[Finding]:
+    for place, _ in _hard_tasks(agent):
+        what = "given beside an automaton; expected one or the other"
+        yield Finding(("agents", name, *place), what)
+    for what in _automaton_flaws(agent.automaton or "", known):
+        yield Finding(("agents", name, "automaton"), what)
 
 
 def _hard_tasks(agent: Agent) -> Iterator[tuple[Place, str]]:
@@ -173,7 +185,24 @@ def _flaws(text: str, known: Collection[str]) -> Iterator[str]:
         yield explain(error)
         return
     for atom in unknown:
-        yield f"unknown region or action {atom!r}; {did_you_mean(atom, known)}"
+        yield _unknown(atom, known)
+
+
+def _automaton_flaws(text: str, known: Collection[str]) -> Iterator[str]:
+    """Say what is wrong with an automaton over some names."""
+    try:
+        automaton = read_automaton(text)
+    except InputError as error:
+        yield str(error)
+        return
+    lines = text.splitlines()
+    for atom in sorted({*automaton.atoms}.difference(known)):
+        line = next((n for n, line in enumerate(lines, start=1) if f'"{atom}"' in line), 1)
+        yield f"automaton, line {line}: {_unknown(atom, known)}"
+
+
+def _unknown(atom: str, known: Collection[str]) -> str:
+    return f"unknown region or action {atom!r}; {did_you_mean(atom, known)}"
 
 
 def _connectivity(scenario: Scenario) -> Iterator[Finding]:
@@ -197,14 +226,22 @@ def _reachability(scenario: Scenario, grid: Grid) -> Iterator[Finding]:
     home = {name: region_location(grid, region) for name, region in regions.items()}
     for name, agent in scenario.agents.items():
         start = grid.location_at(*agent.start[:2])
-        for place, text in _hard_tasks(agent):
-            for region in sorted(home.keys() & atoms(parse(text))):
+        for place, named in _named(agent):
+            for region in sorted(home.keys() & named):
                 if grid.components[start] != grid.components[home[region]]:
                     yield Finding(
                         ("agents", name, *place),
                         f"region {region!r} can't be reached from the start"
                         f" {_point(agent.start[:2])}: obstacles close every way",
                     )
+
+
+def _named(agent: Agent) -> Iterator[tuple[Place, frozenset[str]]]:
+    """Yield the atoms of each hard task."""
+    for place, text in _hard_tasks(agent):
+        yield place, frozenset(atoms(parse(text)))
+    if agent.automaton is not None:
+        yield ("automaton",), frozenset(read_automaton(agent.automaton).atoms)
 
 
 def _covered(grid: Grid, x_m: float, y_m: float) -> bool:

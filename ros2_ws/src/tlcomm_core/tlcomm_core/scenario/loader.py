@@ -10,6 +10,7 @@ expected; the first in the file if there are several.
 """
 
 import json
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import UnionType
 from typing import Any, Final, TypeVar, get_args
@@ -19,6 +20,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from tlcomm_core.errors import ScenarioError
+from tlcomm_core.scenario.automaton_file import inline_automata
 from tlcomm_core.scenario.checks import check
 from tlcomm_core.scenario.document import (
     MAX_BYTES,
@@ -37,13 +39,15 @@ __all__ = ["dumps", "load_scenario", "loads", "verify"]
 _Model = TypeVar("_Model", bound=BaseModel)
 
 _SHOWN_CHARACTERS: Final = 60
+_WIDTH: Final = 100
 _MAP_REPLACES: Final = ("size_m", "origin_m", "obstacles_m")
 
 
 def load_scenario(path: str | Path) -> Scenario:
     """Read and check a scenario file.
 
-    A ``workspace.map`` is read too and becomes size, origin and obstacles.
+    A ``workspace.map`` is read too and becomes size, origin and obstacles; the file that an
+    agent's ``automaton`` names becomes its text.
 
     Raises:
         ScenarioError: the file can't be read, or isn't a scenario that can be run.
@@ -57,7 +61,7 @@ def loads(text: str, name: str = "scenario", folder: str | Path = ".") -> Scenar
     Args:
         text: YAML.
         name: how errors call the text.
-        folder: where a ``workspace.map`` is looked for.
+        folder: where a ``workspace.map`` and automata are looked for.
 
     Raises:
         ScenarioError: the text isn't a scenario that can be run.
@@ -68,10 +72,24 @@ def loads(text: str, name: str = "scenario", folder: str | Path = ".") -> Scenar
 def dumps(scenario: Scenario) -> str:
     """Return YAML with every default filled in, which loads back to an equal scenario.
 
-    It stands alone: what came from a map file is written out as obstacles.
+    It stands alone: what came from a map file is written out as obstacles, automata as text.
     """
     plain = json.loads(scenario.model_dump_json(exclude_none=True))
-    return yaml.safe_dump(plain, sort_keys=False, default_flow_style=None, width=100)
+    text: str = yaml.dump(
+        plain, Dumper=_Dumper, sort_keys=False, default_flow_style=None, width=_WIDTH
+    )
+    return text
+
+
+class _Dumper(yaml.SafeDumper):
+    """Writes texts of several lines as blocks."""
+
+    def represent_text(self, text: str) -> yaml.ScalarNode:
+        style = "|" if "\n" in text else None
+        return self.represent_scalar("tag:yaml.org,2002:str", text, style)
+
+
+_Dumper.add_representer(str, _Dumper.represent_text)
 
 
 def verify(scenario: Scenario) -> Scenario:
@@ -88,9 +106,26 @@ def verify(scenario: Scenario) -> Scenario:
 def _scenario(content: bytes, name: str, folder: Path) -> Scenario:
     document = parse_yaml(content, name)
     _inline_map(document, name, folder)
+    files = inline_automata(document, name, folder)
     scenario = _validated(Scenario, document, name)
-    _raise_first(check(scenario), document, name)
+    findings = [_in_file(finding, files) for finding in check(scenario)]
+    _raise_first(findings or [*_oversize(scenario)], document, name)
     return scenario
+
+
+def _in_file(finding: Finding, files: Mapping[Place, Path]) -> Finding:
+    """Return a finding that names the file in which it is, if that isn't the scenario's."""
+    file = files.get(finding.place)
+    return finding if file is None else Finding(finding.place, f"in {str(file)!r}: {finding.what}")
+
+
+def _oversize(scenario: Scenario) -> Iterator[Finding]:
+    """Find automata that make the scenario, written out, too large to be read again."""
+    own = [name for name, agent in scenario.agents.items() if agent.automaton is not None]
+    size = len(dumps(scenario).encode()) if own else 0
+    if size > MAX_BYTES:
+        what = f"with its automata the scenario has {size} bytes; expected at most {MAX_BYTES}"
+        yield Finding(("agents", own[-1], "automaton"), what)
 
 
 def _read(path: Path, name: str) -> bytes:

@@ -149,11 +149,13 @@ class Soft(_Section):
 class Agent(_Section):
     """Where an agent starts (x, y, yaw), its tasks, and what it has different from the team.
 
-    The task and each of the tasks must be satisfied, all of them together.
+    The task and each of the tasks must be satisfied, all of them together. An automaton, as text
+    in HOA v1, may be given in place of both.
     """
 
     start: tuple[Number, Number, Number]
     task: str | None = None
+    automaton: str | None = None
     tasks: Annotated[tuple[str, ...], Field(max_length=MAX_TASKS)] = ()
     soft: Soft | None = None
     motion: DriveOverride = DriveOverride()
@@ -166,8 +168,8 @@ class Agent(_Section):
 
     @property
     def whole_task(self) -> str:
-        """All that must be satisfied, as one formula."""
-        parts = self.hard_tasks
+        """All that must be satisfied, as one formula; ``true`` beside an automaton."""
+        parts = self.hard_tasks or ("true",)
         return parts[0] if len(parts) == 1 else " & ".join(f"({part})" for part in parts)
 
 

@@ -2,12 +2,16 @@
 
 ``tracks``      where each agent was, from its odometry
 ``links``       when the whole team was connected, from the tracks
+``words``       what each agent's steps made true, from the events and tracks
 ``formula``     formulas read and evaluated on finite words
-``tasks``       each task's satisfactions, from the events and tracks
+``progress``    what a word says of a task: the runtime monitor's verdict
+``tasks``       each task's verdict and satisfactions
 ``trespass``    whether agents kept out of what their tasks forbid
 ``conditions``  whether actions had what they need first
 ``strategies``  whether all agents hold the same strategies
 ``findings``    all of it as one document
 
 It shares no code with planner, game, protocol and world, so that it can't repeat their mistakes.
+The verdict comes from the monitors of the LTL library, which are tested on their own; how often φ
+of □◇φ was satisfied is counted by ``formula`` alone.
 """

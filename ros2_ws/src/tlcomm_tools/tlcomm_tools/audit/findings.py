@@ -61,6 +61,8 @@ class Audit:
                     "claimed": own.claimed,
                     "satisfied": own.satisfied,
                     "longest_gap_s": own.longest_gap_s,
+                    "verdict": own.verdict,
+                    "settled_s": own.settled_s,
                 }
                 for own in self.tasks
             },

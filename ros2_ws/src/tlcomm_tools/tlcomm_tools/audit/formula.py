@@ -12,17 +12,10 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from tlcomm_core.errors import InputError
+from tlcomm_tools.audit.words import Letter
 
-__all__ = [
-    "Letter",
-    "Tree",
-    "count_fulfilled",
-    "read_formula",
-    "recurring_part",
-]
+__all__ = ["Tree", "count_fulfilled", "read_formula", "recurring_part"]
 
-Letter = frozenset[str]
-"""The atoms that are true."""
 Tree = tuple[Any, ...]
 
 _TOKEN = re.compile(r"\s*(<->|->|<>|\[\]|&&?|\|\|?|[!~()]|[FGX](?=[FGX]+\b)|[A-Za-z0-9_]+|$)")

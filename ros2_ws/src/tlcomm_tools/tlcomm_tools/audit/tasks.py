@@ -1,4 +1,4 @@
-"""Each task's satisfactions, recomputed from what was done and where.
+"""Each task's progress, recomputed from what was done and where.
 
 ``TaskFinding``  one agent's outcome
 ``audit_task``   recomputes it
@@ -14,14 +14,11 @@ import numpy as np
 from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.records import TaskRecord
 from tlcomm_core.scenario.model import Scenario
-from tlcomm_tools.audit.formula import (
-    Letter,
-    Tree,
-    count_fulfilled,
-    read_formula,
-    recurring_part,
-)
+from tlcomm_core.scenario.task import task_of
+from tlcomm_tools.audit.formula import Tree, count_fulfilled, read_formula, recurring_part
+from tlcomm_tools.audit.progress import Progress, follow
 from tlcomm_tools.audit.tracks import Track
+from tlcomm_tools.audit.words import Letter, read_word
 
 __all__ = ["TaskFinding", "audit_task"]
 
@@ -39,9 +36,11 @@ class TaskFinding:
     Attributes:
         agent: whose.
         claimed: how often it said that its task was satisfied.
-        satisfied: how often it was, or ``None`` for tasks of which no finite part tells it: all
-            but □◇φ with co-safe φ, and those changed on the way.
-        longest_gap_s: the longest time without a satisfaction, or ``None`` likewise.
+        satisfied: how often it was; for other tasks than □◇φ with co-safe φ, how often a step
+            took an accepting transition, or ``None`` where the steps leave that open.
+        longest_gap_s: the longest time without a satisfaction, or ``None`` for those others.
+        verdict: one of ``progress.WORDS``, or ``None`` where the steps leave that open.
+        settled_s: when it became *fulfilled* or *violated*, else ``None``.
         violations: one line each.
     """
 
@@ -49,6 +48,8 @@ class TaskFinding:
     claimed: int
     satisfied: int | None
     longest_gap_s: float | None
+    verdict: str | None
+    settled_s: float | None
     violations: tuple[str, ...]
 
 
@@ -59,10 +60,7 @@ def audit_task(
     track: Track | None,
     end_s: float,
 ) -> TaskFinding:
-    """Recompute one agent's satisfactions.
-
-    The word that its task is evaluated on has a letter for where it started, and one for each
-    finished action and each visit: the action, if any, and the regions that it was in then.
+    """Recompute one agent's progress: its task's verdict and satisfactions.
 
     Args:
         scenario: tasks, regions and durations.
@@ -77,51 +75,64 @@ def audit_task(
         for record in events
         if record.event.kind is TaskEventKind.TASK_SATISFIED
     ]
-    violations = [*_misplaced(scenario, agent, events, track), *_hasty(scenario, agent, events)]
-    part = recurring_part(read_formula(scenario.agents[agent].whole_task))
-    is_changed = any(own.event.kind is TaskEventKind.TASK_CHANGED for own in events)
-    if part is None or is_changed:
-        return TaskFinding(agent, len(claimed_s), None, None, tuple(violations))
-    word = [_initial_letter(scenario, agent), *(_letter(scenario, step, track) for step in steps)]
-    # What holds where it started needs no step, and is claimed by none.
-    satisfied_s = [steps[end - 1].stamp_ns * 1e-9 for end in count_fulfilled(part, word) if end]
-    violations += _unfounded(agent, claimed_s, satisfied_s)
-    gap_s, gap_from_s = _longest_gap([0.0, *satisfied_s, end_s])
-    # Each attempt that failed may have cost a window.
-    failed = sum(
-        record.event.is_failed_attempt and gap_from_s < record.stamp_ns * 1e-9 <= gap_from_s + gap_s
-        for record in events
-    )
-    limit_s = (_action_count(part, scenario, agent) + _SPARE_WINDOWS + failed) * (
-        scenario.communication.period_s
-    )
-    if gap_s > limit_s:
-        violations.append(
-            f"{agent}: task not satisfied from {gap_from_s:.3f} s to {gap_from_s + gap_s:.3f} s"
+    if any(record.event.kind is TaskEventKind.TASK_CHANGED for record in events):
+        # What the scenario says isn't what it did.
+        seen = (*_misplaced(scenario, agent, events, track), *_hasty(scenario, agent, events))
+        return TaskFinding(agent, len(claimed_s), None, None, None, None, seen)
+    own = scenario.agents[agent]
+    word = read_word(scenario, agent, steps, track)
+    # What holds before the first letter, or where the agent started, needs no step.
+    times_s = [0.0, 0.0, *(record.stamp_ns * 1e-9 for record in steps)]
+    progress = follow(task_of(own), word)
+    part = None
+    if own.automaton is None:
+        part = recurring_part(read_formula(own.whole_task))
+    ends = progress.passes if part is None else count_fulfilled(part, word)
+    # A step claims what it does; the start claims nothing.
+    satisfied_s = None if ends is None else [times_s[end + 1] for end in ends if end]
+    violations = [
+        *_misplaced(scenario, agent, events, track),
+        *_hasty(scenario, agent, events),
+        *_violated(agent, progress, word, times_s),
+    ]
+    if satisfied_s is not None:
+        violations += _unfounded(agent, claimed_s, satisfied_s)
+    gap_s = None
+    if part is not None and satisfied_s is not None:
+        gap_s, gap_from_s = _longest_gap([0.0, *satisfied_s, end_s])
+        # Each attempt that failed may have cost a window.
+        failed = sum(
+            record.event.is_failed_attempt
+            and gap_from_s < record.stamp_ns * 1e-9 <= gap_from_s + gap_s
+            for record in events
         )
-    return TaskFinding(agent, len(claimed_s), len(satisfied_s), gap_s, tuple(violations))
-
-
-def _initial_letter(scenario: Scenario, agent: str) -> Letter:
-    x_m, y_m, _ = scenario.agents[agent].start
-    return _regions_at(scenario, x_m, y_m)
-
-
-def _letter(scenario: Scenario, record: TaskRecord, track: Track | None) -> Letter:
-    event = record.event
-    letter = frozenset({event.action, event.region} - {""})
-    if track is None:
-        return letter
-    x_m, y_m = track.at(np.array([record.stamp_ns * 1e-9]))[0]
-    return letter | _regions_at(scenario, x_m, y_m)
-
-
-def _regions_at(scenario: Scenario, x_m: float, y_m: float) -> Letter:
-    return frozenset(
-        name
-        for name, region in scenario.workspace.regions.items()
-        if math.dist(region.at_m, (x_m, y_m)) <= region.radius_m
+        spare_s = failed * scenario.communication.period_s
+        if gap_s > _patience_s(part, scenario, agent) + spare_s:
+            violations.append(
+                f"{agent}: task not satisfied from {gap_from_s:.3f} s to {gap_from_s + gap_s:.3f} s"
+            )
+    return TaskFinding(
+        agent=agent,
+        claimed=len(claimed_s),
+        satisfied=None if satisfied_s is None else len(satisfied_s),
+        longest_gap_s=gap_s,
+        verdict=progress.verdict,
+        settled_s=None if progress.settled is None else times_s[progress.settled],
+        violations=tuple(violations),
     )
+
+
+def _violated(
+    agent: str, progress: Progress, word: Sequence[Letter], times_s: Sequence[float]
+) -> Iterator[str]:
+    """Say when the task became impossible to satisfy, and with what."""
+    if progress.violated is None:
+        return
+    what = "nothing satisfies it"
+    if progress.violated:
+        letter = ", ".join(sorted(word[progress.violated - 1]))
+        what = f"what was true then: {{{letter}}}"
+    yield f"{agent}: task violated at {times_s[progress.violated]:.3f} s; {what}"
 
 
 def _misplaced(
@@ -188,6 +199,11 @@ def _unfounded(
 def _longest_gap(moments_s: Sequence[float]) -> tuple[float, float]:
     """Return the longest time between neighbours, and when it began."""
     return max((later - earlier, earlier) for earlier, later in pairwise(moments_s))
+
+
+def _patience_s(part: Tree, scenario: Scenario, agent: str) -> float:
+    """Return the longest that φ of □◇φ may go without being fulfilled."""
+    return (_action_count(part, scenario, agent) + _SPARE_WINDOWS) * scenario.communication.period_s
 
 
 def _action_count(tree: Tree, scenario: Scenario, agent: str) -> int:

@@ -8,6 +8,7 @@ from tlcomm_core.errors import InputError
 from tlcomm_core.scenario.loader import load_scenario, loads
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_tools.audit.findings import Audit, audit_run
+from tlcomm_tools.audit.tasks import TaskFinding
 from tlcomm_tools.bag.reader import RecordedRun, find_files, read_run
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_number, format_table
@@ -67,6 +68,7 @@ def _format_audit(audit: Audit) -> str:
             format_number(own.satisfied, 0),
             str(own.claimed),
             format_number(own.longest_gap_s),
+            _verdict(own),
         )
         for own in audit.tasks
     ]
@@ -76,7 +78,7 @@ def _format_audit(audit: Audit) -> str:
         f"  shortest meeting   {format_number(shortest_s, 3, 's')}",
         f"  strategies agreed  {audit.strategies.equal} of {audit.strategies.rounds} rounds",
         "",
-        format_table(("agent", "satisfied", "claimed", "longest gap/s"), rows),
+        format_table(("agent", "satisfied", "claimed", "longest gap/s", "task"), rows),
         "",
     ]
     if audit.note:
@@ -87,3 +89,9 @@ def _format_audit(audit: Audit) -> str:
     if len(audit.violations) > _SHOWN_VIOLATIONS:
         shown.append(f"  … and {len(audit.violations) - _SHOWN_VIOLATIONS} more")
     return "\n".join([*parts, "verdict: FAILED", *shown])
+
+
+def _verdict(own: TaskFinding) -> str:
+    """Return a task's verdict, and since when it is settled."""
+    verdict = "–" if own.verdict is None else own.verdict
+    return verdict if own.settled_s is None else f"{verdict} at {own.settled_s:.3f} s"

@@ -73,7 +73,7 @@ def _plan(name: str, site: Site, objective: Objective, *, is_explained: bool) ->
     planning_wall_s = time.perf_counter() - begun_s
     stem, loop = plan.word
     told: dict[str, Any] = {
-        "task": agent.whole_task,
+        "task": agent.whole_task if agent.automaton is None else None,
         "soft": None if agent.soft is None else _soft(agent.soft, plan),
         "prefix": [_step(step, site) for step in plan.prefix],
         "suffix": [_step(step, site) for step in plan.suffix],
@@ -154,7 +154,7 @@ def _format_plan(name: str, plan: Mapping[str, Any]) -> str:
     header = ("step", "part", "region", "action", "at/m", "stays/s", "task", "soft task wants")
     columns = len(header) - (plan["soft"] is None)
     return (
-        f"{name}: {plan['task']}\n"
+        f"{name}: {plan['task'] or 'the given automaton'}\n"
         f"  prefix {plan['prefix_s']:.2f} s and {plan['prefix_m']:.2f} m, "
         f"suffix {plan['suffix_s']:.2f} s and {plan['suffix_m']:.2f} m\n"
         f"  satisfied first at {plan['first_s']:.2f} s; "
