@@ -91,7 +91,7 @@ def region_plant(count: int) -> TransitionSystem:
 _FAIR: Final = "G F a & G F b & G F c"
 _CHAIN: Final = "G F (r0 & collect & F (r1 & unload & F (r2 & measure)))"
 
-# Its product of the 30 × 30 grid has 3,600 states, as its automaton accepts on states.
+# Reported for a product of 3,600 states, the size that the 30 × 30 grid's has.
 _PUBLISHED_S: Final = {30: (23.0, 38.0)}
 
 PROBLEMS: Final = (
