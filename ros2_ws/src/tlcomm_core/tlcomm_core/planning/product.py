@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tlcomm_core.errors import IntractableTaskError
+from tlcomm_core.planning.moves import Moves, ranges
 from tlcomm_core.planning.relaxation import (
     Automaton,
     Move,
@@ -135,7 +136,7 @@ class _Builder:
         self._system = system
         self._first_step = np.searchsorted(system.source, np.arange(len(system.states) + 1))
         self._count = reader.state_count
-        self._moves = _Moves(reader, system.labels)
+        self._moves = Moves(reader, system.labels)
         self._initial = reader.initial
         self._price_ns = price_ns
 
@@ -191,60 +192,10 @@ class _Builder:
     def _expand(self, keys: Ints) -> _Layer:
         states, automaton_states = np.divmod(keys, self._count)
         starts, ends = self._first_step[states], self._first_step[states + 1]
-        steps = _ranges(starts, ends)
+        steps = ranges(starts, ends)
         source = np.repeat(keys, ends - starts)
         reading = np.repeat(automaton_states, ends - starts)
         move, counts = self._moves.of(reading, self._system.label[steps])
         step = np.repeat(steps, counts)
         target = self._system.target[step] * self._count + self._moves.targets(move)
         return _Layer(np.repeat(source, counts), target, step, move)
-
-
-class _Moves:
-    """The reader's moves as one flat table, filled as pairs are first asked for."""
-
-    def __init__(self, reader: Reader, labels: Sequence[frozenset[str]]) -> None:
-        numbers: dict[frozenset[str], int] = {}
-        letter = [numbers.setdefault(label & reader.atoms, len(numbers)) for label in labels]
-        self._reader = reader
-        self._letter_of_label = np.array(letter, dtype=np.int64)
-        self._letters = tuple(numbers)
-        pairs = reader.state_count * len(self._letters)
-        self._start = np.full(pairs, -1, dtype=np.int64)
-        self._end = np.zeros(pairs, dtype=np.int64)
-        self._flat: list[Move] = []
-        self._target = np.array([], dtype=np.int64)
-
-    def of(self, states: Ints, labels: Ints) -> tuple[Ints, Ints]:
-        """Return the moves of all pairs in a row, and how many each pair has."""
-        pairs = states * len(self._letters) + self._letter_of_label[labels]
-        self._fill(np.unique(pairs[self._start[pairs] < 0]))
-        starts, ends = self._start[pairs], self._end[pairs]
-        return _ranges(starts, ends), ends - starts
-
-    def targets(self, moves: Ints) -> Ints:
-        """Return the states that some moves lead to."""
-        targets: Ints = self._target[moves]
-        return targets
-
-    def table(self) -> tuple[Move, ...]:
-        """Return the moves asked for so far."""
-        return tuple(self._flat)
-
-    def _fill(self, pairs: Ints) -> None:
-        known = len(self._flat)
-        for pair in pairs.tolist():
-            state, letter = divmod(pair, len(self._letters))
-            self._start[pair] = len(self._flat)
-            self._flat.extend(self._reader.moves(state, self._letters[letter]))
-            self._end[pair] = len(self._flat)
-        new = np.array([move.target for move in self._flat[known:]], dtype=np.int64)
-        self._target = np.append(self._target, new)
-
-
-def _ranges(starts: Ints, ends: Ints) -> Ints:
-    """Return the concatenation of the ranges [start, end)."""
-    counts = ends - starts
-    offsets = np.cumsum(counts) - counts
-    ranges: Ints = np.arange(counts.sum(), dtype=np.int64) + np.repeat(starts - offsets, counts)
-    return ranges

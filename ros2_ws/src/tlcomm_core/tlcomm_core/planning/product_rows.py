@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 
 from tlcomm_core.ltl import BuchiAutomaton
 from tlcomm_core.ltl.automaton import strong_components
+from tlcomm_core.planning.moves import Moves, ranges
 from tlcomm_core.planning.product import ticks_ns
+from tlcomm_core.planning.relaxation import Strict
 from tlcomm_core.planning.transition_system import TransitionSystem
 
 __all__ = ["Edges", "ProductRows"]
@@ -71,16 +73,16 @@ class ProductRows:
         self._target: Final = system.target
         self._time_ns: Final = ticks_ns(system.time_s)
         self._first_step: Final = np.searchsorted(system.source, np.arange(len(system.states) + 1))
-        self._moves: Final = _Moves(automaton, system.labels)
+        self._moves: Final = Moves(Strict(automaton), system.labels)
         self._label: Final = system.label
         self._count: Final = automaton.state_count
         targets = [[edge.target for edge in row] for row in automaton.transitions]
         self._component: Final = np.array(strong_components(targets), dtype=np.int64)
         self.size: Final = len(system.states) * self._count
         states = np.array([automaton.initial])
-        first, _, _ = self._moves.of(states, np.array([system.initial_label]))
+        first, _ = self._moves.of(states, np.array([system.initial_label]))
         # The transition system's initial state is number 0.
-        self.initial: Final = np.unique(first)
+        self.initial: Final = np.unique(self._moves.targets(first))
         lasting_ns = self._time_ns[self._time_ns > 0]
         self.stride_ns: Final = int(lasting_ns.min()) if len(lasting_ns) else 0
         self._least_out_ns: Final = self._least_by_state()
@@ -113,15 +115,16 @@ class ProductRows:
     def _expand(self, keys: Ints) -> Edges:
         states, reading = np.divmod(keys, self._count)
         starts, ends = self._first_step[states], self._first_step[states + 1]
-        step = _ranges(starts, ends)
+        step = ranges(starts, ends)
         source = np.repeat(keys, ends - starts)
-        moved, accepting, counts = self._moves.of(
-            np.repeat(reading, ends - starts), self._label[step]
-        )
+        moves, counts = self._moves.of(np.repeat(reading, ends - starts), self._label[step])
+        moved = self._moves.targets(moves)
         source, step = np.repeat(source, counts), np.repeat(step, counts)
         stays = self._component[source % self._count] == self._component[moved]
         target = self._target[step] * self._count + moved
-        return Edges(source, target, step, self._time_ns[step], accepting & stays)
+        return Edges(
+            source, target, step, self._time_ns[step], self._moves.accepting(moves) & stays
+        )
 
     def _least_by_state(self) -> Ints:
         starts, ends = self._first_step[:-1], self._first_step[1:]
@@ -130,45 +133,3 @@ class ProductRows:
         if some.any():
             least_ns[some] = np.minimum.reduceat(self._time_ns, starts[some])
         return least_ns
-
-
-class _Moves:
-    """The automaton's transitions by state and letter, looked up when first asked for."""
-
-    def __init__(self, automaton: BuchiAutomaton, labels: tuple[frozenset[str], ...]) -> None:
-        atoms = frozenset(automaton.atoms)
-        numbers: dict[frozenset[str], int] = {}
-        letter = [numbers.setdefault(label & atoms, len(numbers)) for label in labels]
-        self._automaton = automaton
-        self._letter_of_label = np.array(letter, dtype=np.int64)
-        self._letters = tuple(numbers)
-        pairs = automaton.state_count * len(self._letters)
-        self._start = np.full(pairs, -1, dtype=np.int64)
-        self._end = np.zeros(pairs, dtype=np.int64)
-        self._flat = np.zeros((0, 2), dtype=np.int64)
-
-    def of(self, states: Ints, labels: Ints) -> tuple[Ints, Bools, Ints]:
-        """Return targets and acceptance for all pairs in a row, and how many each pair has."""
-        pairs = states * len(self._letters) + self._letter_of_label[labels]
-        self._fill(np.unique(pairs[self._start[pairs] < 0]))
-        starts, ends = self._start[pairs], self._end[pairs]
-        flat = self._flat[_ranges(starts, ends)]
-        return flat[:, 0], flat[:, 1] > 0, ends - starts
-
-    def _fill(self, pairs: Ints) -> None:
-        known, found = len(self._flat), list[tuple[int, bool]]()
-        for pair in pairs.tolist():
-            state, letter = divmod(pair, len(self._letters))
-            self._start[pair] = known + len(found)
-            found += self._automaton.successors(state, self._letters[letter])
-            self._end[pair] = known + len(found)
-        if found:
-            self._flat = np.vstack((self._flat, np.array(found, dtype=np.int64)))
-
-
-def _ranges(starts: Ints, ends: Ints) -> Ints:
-    """Return the concatenation of the ranges [start, end)."""
-    counts = ends - starts
-    offsets = np.cumsum(counts) - counts
-    ranges: Ints = np.arange(counts.sum(), dtype=np.int64) + np.repeat(starts - offsets, counts)
-    return ranges
