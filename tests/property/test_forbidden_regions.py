@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from support.danger_hall import danger_hall
 from tlcomm_core.agent.actions import TaskEventKind
-from tlcomm_core.agent.member import check_tasks
+from tlcomm_core.agent.planner import check_tasks
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.geometry import Pose
 from tlcomm_core.mission import Mission

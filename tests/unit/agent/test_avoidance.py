@@ -4,7 +4,7 @@ import pytest
 
 from support.danger_hall import danger_hall
 from tlcomm_core.agent.avoidance import avoided_regions, travel_of
-from tlcomm_core.agent.member import check_tasks, local_plan
+from tlcomm_core.agent.planner import check_tasks, local_plan
 from tlcomm_core.errors import PlanningError, UnreachableTaskError
 from tlcomm_core.ltl import parse
 from tlcomm_core.scenario.model import Region, Scenario

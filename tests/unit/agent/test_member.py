@@ -7,7 +7,8 @@ from support.hall import STARTS, hall, make_member
 from tlcomm_core.agent.actions import Action, CountIgnored, Drive, SendMessage
 from tlcomm_core.agent.avoidance import travel_of
 from tlcomm_core.agent.controller import Pacing
-from tlcomm_core.agent.member import Member, create, local_plan
+from tlcomm_core.agent.member import Member, create
+from tlcomm_core.agent.planner import local_plan
 from tlcomm_core.errors import PlanningError, UnsatisfiableTaskError
 from tlcomm_core.geometry import Pose
 from tlcomm_core.planning.plan import LocalPlan

@@ -1,6 +1,5 @@
 """Driving that never touches what an agent's task forbids for ever.
 
-``hard_task``        what its plan must satisfy
 ``avoided_regions``  the regions that an agent keeps out of
 ``travel_of``        its travel times, keeping out of them
 ``obstruction``      what that makes impossible
@@ -8,17 +7,13 @@
 
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.geometry import Pose
-from tlcomm_core.ltl import Formula, atoms, conjunction, forbidden, parse
+from tlcomm_core.ltl import Formula, atoms, forbidden
 from tlcomm_core.scenario.site import Site
+from tlcomm_core.scenario.task import hard_formula, task_field
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import TravelTimes
 
-__all__ = ["avoided_regions", "hard_task", "obstruction", "travel_of"]
-
-
-def hard_task(name: str, site: Site) -> Formula:
-    """Return all that an agent's plan must satisfy, as one formula."""
-    return conjunction([parse(task) for task in site.scenario.agents[name].hard_tasks])
+__all__ = ["avoided_regions", "obstruction", "travel_of"]
 
 
 def avoided_regions(name: str, site: Site, task: Formula, start: Pose) -> frozenset[str]:
@@ -52,11 +47,11 @@ def travel_of(name: str, site: Site, atlas: Atlas, segment_allowance_s: float = 
     Raises:
         PlanningError: the agent starts in such a region.
     """
+    agent = site.scenario.agents[name]
     try:
-        avoided = avoided_regions(name, site, hard_task(name, site), site.start_of(name))
+        avoided = avoided_regions(name, site, hard_formula(agent), site.start_of(name))
     except PlanningError as error:
-        place = "tasks" if site.scenario.agents[name].tasks else "task"
-        raise PlanningError(f"agents.{name}.{place}: {error}") from error
+        raise PlanningError(f"agents.{name}.{task_field(agent)}: {error}") from error
     return atlas.travel(site.motion_of(name, segment_allowance_s), avoided)
 
 

@@ -1,61 +1,34 @@
 """One agent as a shell holds it: brain and radio, on integer nanoseconds.
 
-``Member``          the same in one process and over ROS
-``create``          a member from a scenario
-``team_of``         what all its members know
-``local_plan``      an agent's plan for its task
-``explained_plan``  the same beside what else there is
-``plan_for``        its plan for another task
-``check_tasks``     whether all agents have one
+``Member``   the same in one process and over ROS
+``create``   a member from a scenario
+``team_of``  what all its members know
 """
 
 import math
-from collections.abc import Callable
-from dataclasses import replace
 from typing import Final
 
 from tlcomm_core.agent.actions import Action
-from tlcomm_core.agent.avoidance import avoided_regions, hard_task, obstruction, travel_of
+from tlcomm_core.agent.avoidance import travel_of
 from tlcomm_core.agent.brain import Brain, Settings
 from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
 from tlcomm_core.agent.events import MessageHeard, OdometryReceived, TaskChanged, TimePassed
 from tlcomm_core.agent.faults import ActionFaults, fault_rng
+from tlcomm_core.agent.planner import Planner, local_plan, plan_for
 from tlcomm_core.agent.radio import Radio
 from tlcomm_core.agent.rounds import MeetingRounds
-from tlcomm_core.errors import InputError, PlanningError
+from tlcomm_core.errors import PlanningError
 from tlcomm_core.geometry import Pose
-from tlcomm_core.ltl import parse
-from tlcomm_core.planning.explanation import Explanation, explain_plan
-from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective
 from tlcomm_core.planning.plan import LocalPlan
-from tlcomm_core.planning.relaxation import SoftTask, soft_task
-from tlcomm_core.planning.repertoire import Condition
-from tlcomm_core.planning.synthesis import plan_task
-from tlcomm_core.planning.transition_system import TransitionSystem, build
 from tlcomm_core.protocol.actions import CountIgnored
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.protocol.negotiation import Phase
 from tlcomm_core.protocol.team import Team
-from tlcomm_core.scenario.checks import check_formulas
 from tlcomm_core.scenario.site import Site
-from tlcomm_core.scenario.task import task_of
 from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.workspace.atlas import Atlas
-from tlcomm_core.workspace.travel import TravelTimes
 
-__all__ = [
-    "Member",
-    "Planner",
-    "check_tasks",
-    "create",
-    "explained_plan",
-    "local_plan",
-    "plan_for",
-    "team_of",
-]
-
-Planner = Callable[[str, Pose], LocalPlan]
-"""Makes an agent's plan for a task (its text) from a pose; raises InputError or PlanningError."""
+__all__ = ["Member", "create", "team_of"]
 
 # What a periodic controller may lose at the end of a turn or a straight: the rest of its period
 # and a late timer.
@@ -150,109 +123,6 @@ class Member:
         # Rounding must not ask for the instant that just was.
         self._next_need_ns = None if need_s == math.inf else max(nanoseconds(need_s), now_ns + 1)
         return tuple(actions)
-
-
-def local_plan(
-    name: str, site: Site, travel: TravelTimes, objective: Objective = SUFFIX_FIRST
-) -> LocalPlan:
-    """Return an agent's optimal local plan.
-
-    Args:
-        name: the agent's name.
-        site: the scenario.
-        travel: its travel times, as ``travel_of`` gives them.
-        objective: what is to be least.
-
-    Raises:
-        PlanningError: there is none; the message says whose.
-    """
-    system, soft = _system(name, site, travel), _soft_task(name, site)
-    agent = site.scenario.agents[name]
-    task = task_of(agent)
-    try:
-        return plan_task(task, system, objective, soft)
-    except PlanningError as error:
-        blocked = obstruction(site, system.states[0].location, hard_task(name, site), travel)
-        reason = f"{error}; {blocked}" if blocked else f"{error}"
-        place = "tasks" if agent.tasks else "task" if agent.automaton is None else "automaton"
-        raise type(error)(f"agents.{name}.{place}: {reason}") from error
-
-
-def explained_plan(
-    name: str, site: Site, travel: TravelTimes, objective: Objective = SUFFIX_FIRST
-) -> Explanation:
-    """Return an agent's optimal local plan beside the best ones without a part of it.
-
-    Args:
-        name: of an agent that has a plan.
-        site: the scenario.
-        travel: as for ``local_plan``.
-        objective: as for ``local_plan``.
-    """
-    system, soft = _system(name, site, travel), _soft_task(name, site)
-    return explain_plan(task_of(site.scenario.agents[name]), system, objective, soft)
-
-
-def _system(name: str, site: Site, travel: TravelTimes) -> TransitionSystem:
-    actions = site.scenario.conditional_actions_of(name)
-    conditions = {
-        action: Condition(None if own.at is None else frozenset(own.at), frozenset(own.after))
-        for action, own in actions.items()
-    }
-    return build(
-        travel,
-        site.start_of(name),
-        site.region_location,
-        site.regions_at,
-        site.action_durations(name),
-        conditions,
-    )
-
-
-def _soft_task(name: str, site: Site) -> SoftTask | None:
-    soft = site.scenario.agents[name].soft
-    if soft is None:
-        return None
-    try:
-        return soft_task(parse(soft.task), soft.weight_s)
-    except PlanningError as error:
-        raise type(error)(f"agents.{name}.soft.task: {error}") from error
-
-
-def plan_for(task: str, start: Pose, name: str, site: Site, travel: TravelTimes) -> LocalPlan:
-    """Return an agent's plan for another task than the scenario's, from another start.
-
-    The task takes the place of all the agent's hard ones; its soft one stays.
-
-    Raises:
-        InputError: the task isn't a formula over the scenario's regions and the agent's actions.
-        PlanningError: there is no plan.
-    """
-    pose = (start.x_m, start.y_m, start.yaw_rad)
-    changed = {"task": task, "tasks": (), "automaton": None, "start": pose}
-    agent = site.scenario.agents[name].model_copy(update=changed)
-    scenario = site.scenario.model_copy(update={"agents": {name: agent}})
-    for finding in check_formulas(scenario):
-        raise InputError(f"task: {finding.what}")
-    other = replace(site, scenario=scenario)
-    plan = local_plan(name, other, travel)
-    avoided = avoided_regions(name, other, hard_task(name, other), start)
-    for region in sorted(avoided - travel.grid.avoided.keys()):
-        raise PlanningError(
-            f"task: it forbids region {region!r} always, and agreed ways may touch it"
-        )
-    return plan
-
-
-def check_tasks(site: Site) -> None:
-    """Make every agent's plan, to see that there is one.
-
-    Raises:
-        PlanningError: an agent's task has no plan.
-    """
-    atlas = Atlas(site.grid, site.region_discs)
-    for name in site.scenario.agents:
-        local_plan(name, site, travel_of(name, site, atlas))
 
 
 def team_of(site: Site) -> Team:

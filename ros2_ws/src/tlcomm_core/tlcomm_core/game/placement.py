@@ -5,6 +5,7 @@
 """
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -99,6 +100,7 @@ def cheapest_placement(costs: NDArray[np.float64], neighbourhood: Neighbourhood)
     return Placement(cost, tuple(locations))
 
 
+@cache
 def _parts(subset: int) -> NDArray[np.intp]:
     """Return all subsets of a set but itself and the empty one, as bit masks."""
     parts = []
@@ -106,7 +108,9 @@ def _parts(subset: int) -> NDArray[np.intp]:
     while part:
         parts.append(part)
         part = (part - 1) & subset
-    return np.array(parts, dtype=np.intp)
+    masks = np.array(parts, dtype=np.intp)
+    masks.setflags(write=False)
+    return masks
 
 
 def _trace(

@@ -5,16 +5,11 @@
 """
 
 from collections.abc import Collection, Iterator, Mapping
-from typing import Final
 
 from tlcomm_core.ltl.formula import Formula, Operator, subformulas
-from tlcomm_core.ltl.normal_form import negation_normal_form
+from tlcomm_core.ltl.normal_form import is_timeless, negation_normal_form
 
 __all__ = ["forbidden", "invariants"]
-
-_TIMELESS: Final = frozenset(
-    {Operator.TRUE, Operator.FALSE, Operator.ATOM, Operator.NOT, Operator.AND, Operator.OR}
-)
 
 
 def invariants(formula: Formula) -> tuple[Formula, ...]:
@@ -33,7 +28,7 @@ def _invariants(normal: Formula) -> Iterator[Formula]:
             pending += [(child, is_always) for child in reversed(part.children)]
         elif part.operator is Operator.ALWAYS:
             pending.append((part.children[0], True))
-        elif is_always and all(node.operator in _TIMELESS for node in subformulas(part)):
+        elif is_always and is_timeless(part):
             yield part
 
 
@@ -70,8 +65,6 @@ def _can_hold(invariant: Formula, name: str, others: Collection[str]) -> bool:
                 value[node] = node.children[0].name != name
             case Operator.AND:
                 value[node] = all(value[child] for child in node.children)
-            case Operator.OR:
-                value[node] = any(value[child] for child in node.children)
             case _:
-                value[node] = node.operator is Operator.TRUE
+                value[node] = any(value[child] for child in node.children)
     return value[invariant]

@@ -117,6 +117,7 @@ class _Comparison:
         self._move_of: Final = _moves(self._product, system)
 
     def explanation(self) -> Explanation:
+        """Search once for each distinct move of the optimal suffix."""
         moves = dict.fromkeys(self._move_of[list(self._best.suffix)].tolist())
         lassos = [self._best_without(move) for move in moves]
         rivals = tuple(

@@ -5,7 +5,6 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from typing import Final
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -23,16 +22,16 @@ from tlcomm_core.ltl import (
     Cube,
     Formula,
     Guard,
-    Operator,
     conjunction,
     conjuncts,
     contradiction,
     known_conflict,
     negation_normal_form,
     smallest_conflict,
-    subformulas,
     translate,
 )
+from tlcomm_core.ltl.finite import FiniteReading
+from tlcomm_core.ltl.normal_form import is_timeless
 from tlcomm_core.planning.product import Product, build
 from tlcomm_core.planning.quotient import quotient
 from tlcomm_core.planning.transition_system import TransitionSystem
@@ -40,8 +39,6 @@ from tlcomm_core.planning.transition_system import TransitionSystem
 __all__ = ["failure"]
 
 Label = frozenset[str]
-
-_BOOLEAN: Final = frozenset({Operator.ATOM, Operator.NOT, Operator.AND, Operator.OR})
 
 
 def failure(
@@ -131,7 +128,7 @@ def _wishes(parts: Iterable[Formula]) -> Iterator[Formula]:
         stack = [negation_normal_form(part)]
         while stack:
             node = stack.pop()
-            if all(below.operator in _BOOLEAN for below in subformulas(node)):
+            if is_timeless(node):
                 yield node
             else:
                 stack += reversed(node.children)
@@ -139,23 +136,13 @@ def _wishes(parts: Iterable[Formula]) -> Iterator[Formula]:
 
 def _is_met(wish: Formula, labels: Iterable[Label]) -> bool:
     """Return whether some letter satisfies a formula about one letter."""
-    return any(_holds(wish, label) for label in labels)
+    return any(_is_satisfied(wish, label) for label in labels)
 
 
-def _holds(wish: Formula, label: Label) -> bool:
-    truths: dict[Formula, bool] = {}
-    for node in subformulas(wish):
-        operands = [truths[child] for child in node.children]
-        match node.operator:
-            case Operator.ATOM:
-                truths[node] = node.name in label
-            case Operator.NOT:
-                truths[node] = not operands[0]
-            case Operator.AND:
-                truths[node] = all(operands)
-            case _:
-                truths[node] = any(operands)
-    return truths[wish]
+def _is_satisfied(wish: Formula, label: Label) -> bool:
+    reading = FiniteReading(wish)
+    reading.read(label)
+    return reading.is_satisfied
 
 
 def _without(automaton: BuchiAutomaton, never: Sequence[str]) -> BuchiAutomaton:

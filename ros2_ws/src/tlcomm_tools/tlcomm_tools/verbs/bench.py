@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from tlcomm_core.agent.avoidance import travel_of
-from tlcomm_core.agent.member import local_plan
+from tlcomm_core.agent.planner import local_plan
 from tlcomm_core.game.algorithm import solve
 from tlcomm_core.ltl import parse, translate
 from tlcomm_core.mission import Mission

@@ -49,19 +49,23 @@ def run(options: Namespace) -> Status:
         formula = parse(options.formula)
     except FormulaError as error:
         raise InputError(f"formula: {explain(error)}") from error
-    automaton = translate(formula)
+    known = profile(formula) if options.explain else None
+    automaton = translate(formula) if known is None else known.automaton
     if options.hoa and not options.json:
         print(to_hoa(automaton, formula), end="")
     elif options.dot and not options.json:
         print(to_dot(automaton, to_text(formula)), end="")
     else:
-        known = profile(formula) if options.explain else None
-        conflict = known_conflict(formula) if automaton.is_empty() else ()
+        conflict = _conflict(formula, automaton) if known is None else known.conflict
         if options.json:
             print_json(_document(formula, automaton, conflict, known))
         else:
             print("\n".join(_lines(formula, automaton, conflict, known)))
     return Status.FINE
+
+
+def _conflict(formula: Formula, automaton: BuchiAutomaton) -> tuple[Formula, ...]:
+    return known_conflict(formula) if automaton.is_empty() else ()
 
 
 def _document(

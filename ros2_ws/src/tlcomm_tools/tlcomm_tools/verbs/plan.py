@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from tlcomm_core.agent.avoidance import travel_of
-from tlcomm_core.agent.member import explained_plan, local_plan
+from tlcomm_core.agent.planner import explained_plan, local_plan
 from tlcomm_core.errors import InputError
 from tlcomm_core.planning.explanation import Explanation, Rival
 from tlcomm_core.planning.lasso import Objective

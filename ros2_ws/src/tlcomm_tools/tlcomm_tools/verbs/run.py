@@ -5,7 +5,7 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import Final
 
-from tlcomm_core.agent.member import check_tasks
+from tlcomm_core.agent.planner import check_tasks
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.scenario.site import Site
