@@ -106,11 +106,11 @@ class Improving:
 
     def _is_sound(self, change_s: float, strategy: Strategy) -> bool:
         """Return whether the values can be those of an agent's best response."""
-        values = (strategy.x_m, strategy.y_m, strategy.arrival_s, strategy.extra_travel_s)
         return (
             -math.inf < change_s <= 0.0
-            and all(math.isfinite(value) for value in values)
-            and strategy.arrival_s < self._problem.window_s[1]
+            and self._problem.links.place_at(strategy.x_m, strategy.y_m) is not None
+            and -math.inf < strategy.extra_travel_s < math.inf
+            and -math.inf < strategy.arrival_s < self._problem.window_s[1]
         )
 
     def owed(self) -> list[BestResponse]:
