@@ -7,12 +7,13 @@
 
 import heapq
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tlcomm_core.game.limits import Limits, contested
 from tlcomm_core.game.placement import cheapest_placement
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Profile, RoundProblem
@@ -60,10 +61,14 @@ def solve_exactly(
     all τ of an interval; intervals are halved, the most promising first, until no bound is left
     below the best potential found.
 
+    Rules beside connectivity are left out of P, but that no link is shorter than the separation;
+    so the bounds hold. Where P is attained by a placement that the rules forbid, the search goes on
+    with one agent bound to its place there, and with that agent banned from it.
+
     Args:
         problem: a round of few agents: time and memory grow like 3^N and 2^N.
         start: an admissible team strategy, such as an equilibrium; the better, the faster.
-        is_over: asked before each placement; ends the search early.
+        is_over: asked before each step of the search; ends it early, with a gap.
 
     Source: Problem 2 of the paper, Eq. (5) and (8).
     """
@@ -75,12 +80,24 @@ def solve_exactly(
 
 @dataclass(order=True, slots=True)
 class _Interval:
-    """Communication times not yet ruled out, by their indices in the sorted arrivals."""
+    """Communication times not yet ruled out, by their indices in the sorted arrivals.
+
+    Attributes:
+        bound_s: no Φ in it is less.
+        first: index of its lower end.
+        last: of its upper end.
+        placement_s: P for the upper end, or less.
+        limits: what it holds for.
+        dispute: an agent to decide on, with its place in a forbidden placement that attains P for
+            the whole interval; None if it is to be halved.
+    """
 
     bound_s: float
     first: int
     last: int
     placement_s: float
+    limits: Limits = field(compare=False)
+    dispute: tuple[int, int] | None = field(compare=False)
 
 
 class _Search:
@@ -94,7 +111,7 @@ class _Search:
         self._open: list[_Interval] = []
         last = len(self._costs.times_s) - 1
         if last >= 0:
-            self._examine(0, last)
+            self._examine(0, last, Limits())
 
     @property
     def is_open(self) -> bool:
@@ -108,7 +125,7 @@ class _Search:
         return Optimum(self._best, self._best_s, bound_s, self._placements)
 
     def branch(self) -> None:
-        """Halve the most promising interval."""
+        """Halve the most promising interval, or decide on an agent there."""
         interval = heapq.heappop(self._open)
         times_s, team = self._costs.times_s, self._costs.team
         # Later than this no time can beat the best one found.
@@ -116,32 +133,50 @@ class _Search:
         last = min(interval.last, int(np.searchsorted(times_s, latest_s)) - 1)
         if last < interval.first:
             return
+        if interval.dispute is not None:
+            for limits in interval.limits.decide(*interval.dispute):
+                self._examine(interval.first, last, limits)
+            return
         middle_s = (times_s[interval.first] + times_s[last]) / 2.0
         middle = int(np.searchsorted(times_s, middle_s, side="right")) - 1
-        self._examine(interval.first, middle)
+        self._examine(interval.first, middle, interval.limits)
         if middle < last:
-            bound_s = team * times_s[middle + 1] + interval.placement_s
-            self._push(bound_s, middle + 1, last, interval.placement_s)
+            self._push(middle + 1, last, interval.placement_s, interval.limits)
 
-    def _examine(self, first: int, last: int) -> None:
+    def _examine(self, first: int, last: int, limits: Limits) -> None:
         """Compute the cheapest placement for the interval's upper end."""
         times_s, team = self._costs.times_s, self._costs.team
         self._placements += 1
         room_s = self._best_s - team * times_s[first]
-        placement_s, profile = self._costs.placement(times_s[last], room_s)
+        placement_s, profile = self._costs.placement(times_s[last], room_s, limits)
         if profile is None:
             return
-        potential_s = self._costs.potential_s(profile)
         # The same placement serves every bound from its own latest arrival on.
-        last = int(np.searchsorted(times_s, self._costs.meeting_s(profile))) - 1
-        if potential_s < self._best_s:
-            self._best, self._best_s = profile, potential_s
-        if last >= first:
-            self._push(team * times_s[first] + placement_s, first, last, placement_s)
+        own = max(first, int(np.searchsorted(times_s, self._costs.meeting_s(profile))))
+        if self._costs.is_admissible(profile):
+            potential_s = self._costs.potential_s(profile)
+            if potential_s < self._best_s:
+                self._best, self._best_s = profile, potential_s
+        else:
+            agent = self._costs.contested(profile, limits)
+            if agent is not None:
+                dispute = (agent, profile.location[agent])
+                self._push(own, last, placement_s, limits, dispute)
+        if own > first:
+            self._push(first, own - 1, placement_s, limits)
 
-    def _push(self, bound_s: float, first: int, last: int, placement_s: float) -> None:
+    def _push(
+        self,
+        first: int,
+        last: int,
+        placement_s: float,
+        limits: Limits,
+        dispute: tuple[int, int] | None = None,
+    ) -> None:
+        bound_s = float(self._costs.team * self._costs.times_s[first] + placement_s)
         if bound_s < self._best_s - _ROUNDING_S:
-            heapq.heappush(self._open, _Interval(float(bound_s), first, last, placement_s))
+            interval = _Interval(bound_s, first, last, placement_s, limits, dispute)
+            heapq.heappush(self._open, interval)
 
 
 class _Costs:
@@ -162,20 +197,25 @@ class _Costs:
             own.extra_s - np.where(np.isfinite(since_s), since_s, 0.0)
             for own, since_s in zip(problem.candidates, self._since_s, strict=True)
         ]
-        self._neighbourhood = problem.links.neighbourhood
+        separation_m = problem.rules.separation_m
+        self._neighbourhood = problem.links.neighbourhood_apart(separation_m)
         earliest_s = max(0.0, *(float(since_s.min()) for since_s in self._since_s))
         arrivals_s = np.concatenate([since_s.ravel() for since_s in self._since_s])
         later_s = arrivals_s[np.isfinite(arrivals_s) & (arrivals_s > earliest_s)]
         self.times_s = np.unique(np.append(later_s, earliest_s))
 
-    def placement(self, latest_s: float, room_s: float) -> tuple[float, Profile | None]:
+    def placement(
+        self, latest_s: float, room_s: float, limits: Limits
+    ) -> tuple[float, Profile | None]:
         """Return P(τ) for a bound τ and what attains it, if P(τ) is less than ``room_s``."""
+        links, separation_m = self._problem.links, self._problem.rules.separation_m
         costs_s = np.array(
             [
                 np.where(since_s <= latest_s, gain_s, np.inf).min(axis=0)
                 for since_s, gain_s in zip(self._since_s, self._gain_s, strict=True)
             ]
         )
+        costs_s = limits.applied(costs_s, links, separation_m)
         least_s = costs_s.min(axis=1)
         if not np.isfinite(least_s).all():
             return np.inf, None
@@ -188,6 +228,14 @@ class _Costs:
             return np.inf, None
         locations = tuple(kept[list(placement.locations)].tolist())
         return placement.cost, Profile(locations, self._best_candidates(locations, latest_s))
+
+    def is_admissible(self, profile: Profile) -> bool:
+        """Return whether the rules allow a connected placement."""
+        return self._problem.is_admissible(profile.location)
+
+    def contested(self, profile: Profile, limits: Limits) -> int | None:
+        """Return the agent to decide on in a forbidden placement; None if all are decided on."""
+        return contested(self._problem.links, self._problem.rules, profile.location, limits)
 
     def potential_s(self, profile: Profile) -> float:
         """Return Φ."""
