@@ -9,6 +9,7 @@ from support.meetings import Meeting, sample_meeting
 from support.snapshots import snapshot
 from tlcomm_core.game.algorithm import solve
 from tlcomm_core.game.potential import evaluate
+from tlcomm_core.game.solver import BEST_RESPONSE
 from tlcomm_core.protocol.improving import Improving
 from tlcomm_core.protocol.reception import Reception
 
@@ -25,8 +26,8 @@ def pair_of(meeting: Meeting, max_iterations: int = 1000) -> tuple[Improving, Im
     """Return both agents' parts."""
     first, second = meeting.problem.agents
     return (
-        Improving(first, meeting.problem, [second], 1, max_iterations),
-        Improving(second, meeting.problem, [first], 1, max_iterations),
+        Improving(first, meeting.problem, [second], 1, BEST_RESPONSE, max_iterations),
+        Improving(second, meeting.problem, [first], 1, BEST_RESPONSE, max_iterations),
     )
 
 
@@ -57,7 +58,7 @@ def test_it_ends_as_the_reference_does(meeting: Meeting, max_iterations: int) ->
 def test_a_lone_agent_needs_nobody() -> None:
     """A team of one comes to its end by itself, telling each iteration once."""
     meeting = sample_meeting("line", 1, 5)
-    lone = Improving("agent_00", meeting.problem, [], 1, 1000)
+    lone = Improving("agent_00", meeting.problem, [], 1, BEST_RESPONSE, 1000)
     said = lone.owed()
     assert lone.result is not None
     assert [message.iteration for message in said] == list(range(lone.iteration + 1))

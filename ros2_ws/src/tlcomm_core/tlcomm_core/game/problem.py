@@ -6,6 +6,7 @@
 ``Profile``       a team strategy as indices
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -82,6 +83,11 @@ class RoundProblem:
     def agents(self) -> tuple[str, ...]:
         """Names, sorted."""
         return tuple(candidates.agent for candidates in self.candidates)
+
+    @cached_property
+    def location_index(self) -> Mapping[tuple[float, float], int]:
+        """Which location lies at (x, y)."""
+        return {(x_m, y_m): z for z, (x_m, y_m) in enumerate(self.locations_m.tolist())}
 
     def strategy(self, agent: int, location: int, candidate: int) -> Strategy:
         """Return one agent's candidate as the values that are exchanged."""
