@@ -162,6 +162,7 @@ def junk(meeting: Meeting, rng: np.random.Generator) -> Message:
     other = meeting.round + int(rng.choice([-1, 1]))
     at = meeting.problem.strategy(0, 0, 0)
     broken = replace(at, agent=member, arrival_s=math.nan)
+    nowhere = replace(at, agent=member, x_m=at.x_m + 1e-3)
     everyone = tuple(members)
     choices: list[Message] = [
         PlanOffer(stranger, meeting.round, everyone, meeting.offers),
@@ -171,6 +172,7 @@ def junk(meeting: Meeting, rng: np.random.Generator) -> Message:
         BestResponse(stranger, meeting.round, 0, 0, stranger, -1e6, replace(at, agent=stranger)),
         BestResponse(member, other, 0, 0, member, -1e6, replace(at, agent=member)),
         BestResponse(member, meeting.round, 0, 0, member, -1e6, broken),
+        BestResponse(member, meeting.round, 0, 0, member, -1e6, nowhere),
         BestResponse(member, meeting.round, 0, 99, member, -1e6, replace(at, agent=member)),
         Confirmation(stranger, meeting.round, 0, 0, everyone),
         Confirmation(member, other, 0, 0, everyone),

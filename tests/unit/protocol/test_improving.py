@@ -90,6 +90,7 @@ _BROKEN = {
     "no number": ({"change_s": math.nan}, {}, Reception.MALFORMED),
     "an endless gain": ({"change_s": -math.inf}, {}, Reception.MALFORMED),
     "nowhere": ({}, {"x_m": math.nan}, Reception.MALFORMED),
+    "between the locations": ({}, {"x_m": 0.123}, Reception.MALFORMED),
     "infinitely far": ({}, {"y_m": math.inf}, Reception.MALFORMED),
     "never there": ({}, {"arrival_s": math.inf}, Reception.MALFORMED),
     "there at no time": ({}, {"arrival_s": math.nan}, Reception.MALFORMED),

@@ -17,6 +17,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from tlcomm_core.errors import InputError
 from tlcomm_core.game.algorithm import Solution
+from tlcomm_core.game.links import Links
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Candidates, Profile, RoundProblem
 from tlcomm_core.game.solver import Solved
@@ -89,8 +90,7 @@ def parse_round(document: Mapping[str, object]) -> RoundProblem:
     return RoundProblem(
         round=model.round,
         window_s=model.window,
-        range_m=model.range,
-        locations_m=np.array(model.locations, dtype=np.float64).reshape(-1, 2),
+        links=Links(np.array(model.locations, dtype=np.float64).reshape(-1, 2), model.range),
         candidates=tuple(
             _parse_table(agent, table, len(model.locations))
             for agent, table in zip(model.agents, model.candidates, strict=True)

@@ -15,7 +15,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from tlcomm_core.game.placement import Neighbourhood, cheapest_placement
+from tlcomm_core.game.placement import cheapest_placement
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Profile, RoundProblem
 
@@ -211,7 +211,7 @@ class _Costs:
             own.extra_s - np.where(np.isfinite(since_s), since_s, 0.0)
             for own, since_s in zip(problem.candidates, self._since_s, strict=True)
         ]
-        self._neighbourhood = Neighbourhood.within(problem.locations_m, problem.range_m)
+        self._neighbourhood = problem.links.neighbourhood
         earliest_s = max(0.0, *(float(since_s.min()) for since_s in self._since_s))
         arrivals_s = np.concatenate([since_s.ravel() for since_s in self._since_s])
         later_s = arrivals_s[np.isfinite(arrivals_s) & (arrivals_s > earliest_s)]

@@ -8,7 +8,6 @@ from typing import Final
 
 import numpy as np
 
-from tlcomm_core.game.connectivity import is_connected
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Candidates, Profile, RoundProblem
 from tlcomm_core.game.strategy import Strategy
@@ -38,7 +37,7 @@ def recognise(
     locations: list[int] = []
     rows: list[int] = []
     for own, strategy in zip(problem.candidates, strategies, strict=True):
-        location = problem.location_index.get((strategy.x_m, strategy.y_m))
+        location = problem.links.place_at(strategy.x_m, strategy.y_m)
         row = None if location is None else _row(own, location, strategy)
         if location is None or row is None:
             return None
@@ -46,7 +45,7 @@ def recognise(
         rows.append(row)
     opens_s, _ = problem.window_s
     is_as_claimed = abs(potential(strategies, opens_s) - potential_s) <= POTENTIAL_TOLERANCE_S
-    if is_as_claimed and is_connected(problem.locations_m[locations], problem.range_m):
+    if is_as_claimed and problem.links.is_connected(locations):
         return Profile(tuple(locations), tuple(rows))
     return None
 

@@ -126,13 +126,13 @@ class Improving:
     def _is_sound_response(self, message: BestResponse) -> bool:
         """Return whether the values can be those of an agent's best response."""
         strategy = message.strategy
-        values = (strategy.x_m, strategy.y_m, strategy.arrival_s, strategy.extra_travel_s)
         return (
             message.iteration >= self._first_response
             and strategy.agent == message.candidate
             and -math.inf < message.change_s <= 0.0
-            and all(math.isfinite(value) for value in values)
-            and strategy.arrival_s < self._problem.window_s[1]
+            and self._problem.links.place_at(strategy.x_m, strategy.y_m) is not None
+            and -math.inf < strategy.extra_travel_s < math.inf
+            and -math.inf < strategy.arrival_s < self._problem.window_s[1]
         )
 
     def _is_sound_proposal(self, message: Proposal) -> bool:

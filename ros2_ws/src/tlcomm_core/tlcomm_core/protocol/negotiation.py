@@ -46,7 +46,7 @@ from typing import Final, Protocol
 import numpy as np
 
 from tlcomm_core.errors import LocalMisuseError
-from tlcomm_core.game.connectivity import LINK_TOLERANCE_M
+from tlcomm_core.game.links import LINK_TOLERANCE_M
 from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.problem import RoundProblem
 from tlcomm_core.game.strategy import TeamStrategy
