@@ -94,6 +94,10 @@ class RoundProblem:
         """Names, sorted."""
         return tuple(candidates.agent for candidates in self.candidates)
 
+    def open_places(self, others: Sequence[int]) -> NDArray[np.bool_]:
+        """Tell where one more agent may be while the others are at these places, [Z], fresh."""
+        return self.links.connecting(others)
+
     def strategy(self, agent: int, location: int, candidate: int) -> Strategy:
         """Return one agent's candidate as the values that are exchanged."""
         own = self.candidates[agent]
