@@ -61,8 +61,8 @@ class Neighbourhood:
         return Neighbourhood(np.where(places < 0, np.arange(len(kept))[:, None], places))
 
     def least(self, cost: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the least of a cost float[Z] over the places linked to each, float[Z]."""
-        least: NDArray[np.float64] = cost[self.places].min(axis=1)
+        """Return the least of a cost float[..., Z] over the places linked to each, of its shape."""
+        least: NDArray[np.float64] = cost[..., self.places.T].min(axis=-2)
         return least
 
 
