@@ -95,7 +95,7 @@ def test_the_optimum_is_the_least_admissible(name: str, size: Size, seed: int) -
     """Nothing admissible is better, and stopped at any time the bound isn't above it."""
     problem, solution = solved(seed, size, name)
     least_s = least_potential(problem)
-    optimum = solve_exactly(problem, solution.initial)
+    optimum = solve_exactly(problem, solution.initial, most_decisions=10**6)
     assert may_meet(problem, optimum.profile.location)
     assert optimum.potential_s == pytest.approx(least_s, abs=1e-6)
     assert optimum.gap_s <= 1e-6
@@ -106,3 +106,13 @@ def test_the_optimum_is_the_least_admissible(name: str, size: Size, seed: int) -
         )
         assert partial.bound_s - 1e-6 <= least_s <= partial.potential_s + 1e-6
         assert may_meet(problem, partial.profile.location)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_few_decisions_leave_a_gap_but_no_wrong_bound(seed: int) -> None:
+    """However early the search gives up on resilience, the optimum isn't below its bound."""
+    problem, solution = solved(seed, (4, 2, 3, 2), "both")
+    least_s = least_potential(problem)
+    for most in range(6):
+        partial = solve_exactly(problem, solution.initial, most_decisions=most)
+        assert partial.bound_s - 1e-6 <= least_s <= partial.potential_s + 1e-6

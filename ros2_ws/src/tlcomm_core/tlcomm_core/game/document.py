@@ -3,6 +3,7 @@
 ``ROUND_FORMAT``     the document's ``format``
 ``round_document``   problem and solution as JSON-ready values
 ``profile_document`` one team strategy of it
+``solved_document``  what a solver found
 ``parse_round``      the problem of a document
 """
 
@@ -19,8 +20,9 @@ from tlcomm_core.game.algorithm import Solution
 from tlcomm_core.game.links import Links
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Candidates, Profile, RoundProblem
+from tlcomm_core.game.solver import Solved
 
-__all__ = ["ROUND_FORMAT", "parse_round", "profile_document", "round_document"]
+__all__ = ["ROUND_FORMAT", "parse_round", "profile_document", "round_document", "solved_document"]
 
 ROUND_FORMAT: Final = "tlcomm-round/1"
 
@@ -62,6 +64,12 @@ def profile_document(problem: RoundProblem, profile: Profile) -> dict[str, objec
         "candidate": list(profile.candidate),
         "potential": potential(problem.strategies(profile), opens_s),
     }
+
+
+def solved_document(problem: RoundProblem, solved: Solved) -> dict[str, object]:
+    """Return what a team found with a solver, its bound None where nothing is proven."""
+    bound_s = solved.bound_s if math.isfinite(solved.bound_s) else None
+    return profile_document(problem, solved.solution.nash) | {"bound": bound_s}
 
 
 def parse_round(document: Mapping[str, object]) -> RoundProblem:

@@ -1,6 +1,8 @@
 """The optimum of Problem 2 with a certificate.
 
 ``MOST_AGENTS``    of how many agents it is found in reasonable time
+``MOST_DECISIONS`` how many decisions on single agents are reasonable
+``Share``          which part of the communication times to search
 ``Optimum``        the best team strategy found, and what is proven about it
 ``solve_exactly``  branch and bound over the communication time
 """
@@ -8,6 +10,7 @@
 import heapq
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -18,13 +21,38 @@ from tlcomm_core.game.placement import cheapest_placement
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Profile, RoundProblem
 
-__all__ = ["MOST_AGENTS", "Optimum", "solve_exactly"]
+__all__ = ["MOST_AGENTS", "MOST_DECISIONS", "WHOLE", "Optimum", "Share", "solve_exactly"]
 
 MOST_AGENTS: Final = 10
 """Each further agent triples the time and doubles the memory."""
 
+MOST_DECISIONS: Final = 200
+"""How often a search decides on single agents, where rules forbid the cheapest placements, before
+it leaves a gap: each decision only rules out a few of all placements."""
+
 # Two sums of the same costs in different orders may differ by this much.
 _ROUNDING_S: Final = 1e-7
+
+
+# Neighbouring communication times have similar potentials: small pieces dealt out in turn make
+# shares of equal promise.
+_PIECES_PER_SHARE: Final = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Share:
+    """Which part of the communication times to search.
+
+    Attributes:
+        index: whose share, from 0.
+        count: number of shares that together are the whole.
+    """
+
+    index: int
+    count: int
+
+
+WHOLE: Final = Share(0, 1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,8 +62,8 @@ class Optimum:
     Attributes:
         profile: the team strategy.
         potential_s: its Φ.
-        bound_s: no team strategy has a lower Φ than this; equal to ``potential_s`` but for
-            rounding when the search ran to its end.
+        bound_s: no team strategy with a communication time in the share has a lower Φ than this;
+            equal to ``potential_s`` but for rounding when the search ran to its end.
         placements: how many times the cheapest placement was computed.
     """
 
@@ -51,7 +79,11 @@ class Optimum:
 
 
 def solve_exactly(
-    problem: RoundProblem, start: Profile, is_over: Callable[[], bool] = lambda: False
+    problem: RoundProblem,
+    start: Profile,
+    share: Share = WHOLE,
+    is_over: Callable[[], bool] = lambda: False,
+    most_decisions: int = MOST_DECISIONS,
 ) -> Optimum:
     """Return the team strategy of least potential, or the best until interrupted.
 
@@ -63,16 +95,21 @@ def solve_exactly(
 
     Rules beside connectivity are left out of P, but that no link is shorter than the separation;
     so the bounds hold. Where P is attained by a placement that the rules forbid, the search goes on
-    with one agent bound to its place there, and with that agent banned from it.
+    with one agent bound to its place there, and with that agent banned from it. Separations cost
+    few such decisions, as a bound of single links already holds most of them; resilience costs many
+    more, and then the search may end with a gap.
 
     Args:
         problem: a round of few agents: time and memory grow like 3^N and 2^N.
         start: an admissible team strategy, such as an equilibrium; the better, the faster.
+        share: the part of the communication times to search; the least of all shares' results is
+            the optimum, and the least of their bounds its certificate.
         is_over: asked before each step of the search; ends it early, with a gap.
+        most_decisions: after so many on single agents it ends with a gap, too.
 
     Source: Problem 2 of the paper, Eq. (5) and (8).
     """
-    search = _Search(problem, start)
+    search = _Search(problem, start, share, most_decisions)
     while search.is_open and not is_over():
         search.branch()
     return search.optimum
@@ -99,11 +136,19 @@ class _Interval:
     limits: Limits = field(compare=False)
     dispute: tuple[int, int] | None = field(compare=False)
 
+    @property
+    def origin(self) -> tuple[float, Limits, tuple[int, int] | None]:
+        """What a part of it shares with it."""
+        return self.placement_s, self.limits, self.dispute
+
 
 class _Search:
     """Branch and bound over the communication time; times count from r·T_c."""
 
-    def __init__(self, problem: RoundProblem, start: Profile) -> None:
+    def __init__(
+        self, problem: RoundProblem, start: Profile, share: Share, most_decisions: int
+    ) -> None:
+        self._decisions_left = most_decisions
         self._costs = _Costs(problem)
         self._best = start
         self._best_s = self._costs.potential_s(start)
@@ -112,11 +157,15 @@ class _Search:
         last = len(self._costs.times_s) - 1
         if last >= 0:
             self._examine(0, last, Limits())
+        if share.count > 1:
+            self._keep(share)
 
     @property
     def is_open(self) -> bool:
         """Whether something better may still be found."""
-        return bool(self._open) and self._open[0].bound_s < self._best_s - _ROUNDING_S
+        if not self._open or self._open[0].bound_s >= self._best_s - _ROUNDING_S:
+            return False
+        return self._open[0].dispute is None or self._decisions_left > 0
 
     @property
     def optimum(self) -> Optimum:
@@ -127,13 +176,12 @@ class _Search:
     def branch(self) -> None:
         """Halve the most promising interval, or decide on an agent there."""
         interval = heapq.heappop(self._open)
-        times_s, team = self._costs.times_s, self._costs.team
-        # Later than this no time can beat the best one found.
-        latest_s = (self._best_s - _ROUNDING_S - interval.placement_s) / team
-        last = min(interval.last, int(np.searchsorted(times_s, latest_s)) - 1)
+        times_s = self._costs.times_s
+        last = self._last_of_use(interval)
         if last < interval.first:
             return
         if interval.dispute is not None:
+            self._decisions_left -= 1
             for limits in interval.limits.decide(*interval.dispute):
                 self._examine(interval.first, last, limits)
             return
@@ -142,6 +190,26 @@ class _Search:
         self._examine(interval.first, middle, interval.limits)
         if middle < last:
             self._push(middle + 1, last, interval.placement_s, interval.limits)
+
+    def _keep(self, share: Share) -> None:
+        """Leave only this share of all that is open."""
+        times_s = self._costs.times_s
+        whole, self._open = self._open, []
+        for interval in whole:
+            beyond = self._last_of_use(interval) + 1
+            pieces = share.count * _PIECES_PER_SHARE
+            ends_s = np.linspace(times_s[interval.first], times_s[beyond - 1], pieces + 1)
+            cuts = np.searchsorted(times_s, ends_s[1:-1]).tolist()
+            spans = list(pairwise([interval.first, *cuts, beyond]))
+            for first, following in spans[share.index :: share.count]:
+                if first < following:
+                    self._push(first, following - 1, *interval.origin)
+
+    def _last_of_use(self, interval: _Interval) -> int:
+        """Return the last time of an interval at which the best one found can be beaten."""
+        room_s = self._best_s - _ROUNDING_S - interval.placement_s
+        latest = int(np.searchsorted(self._costs.times_s, room_s / self._costs.team))
+        return min(interval.last, latest - 1)
 
     def _examine(self, first: int, last: int, limits: Limits) -> None:
         """Compute the cheapest placement for the interval's upper end."""

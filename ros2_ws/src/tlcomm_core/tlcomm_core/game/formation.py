@@ -3,8 +3,10 @@
 ``cheapest_formation``  the cheapest of the formations around some centres
 """
 
+import heapq
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import islice
 from typing import Final, Self
 
 import numpy as np
@@ -43,18 +45,13 @@ def cheapest_formation(problem: RoundProblem, centres: Sequence[int]) -> Profile
     Deviates: in the paper everybody begins at one place, Eq. (9).
     Cost: O(Z·log Z + N·Z) to grow, and O(N³) for each assignment.
     """
-    reached = _reached_by_all(problem)
-    best: tuple[float, Profile] | None = None
-    compared = 0
-    for centre in centres:
-        places = _grow(problem.links, problem.rules, centre, reached, len(problem.candidates))
-        if places is None:
-            continue
-        best = _Assignment.of(problem, places).improve(best)
-        compared += 1
-        if compared == _COMPARED:
-            break
-    return None if best is None else best[1]
+    reached, team = _reached_by_all(problem), len(problem.candidates)
+    grown = (_grow(problem.links, problem.rules, centre, reached, team) for centre in centres)
+    formations = islice((places for places in grown if places is not None), _COMPARED)
+    search = _Search()
+    for places in formations:
+        search.add(_Formation.of(problem, places))
+    return search.least()
 
 
 def _reached_by_all(problem: RoundProblem) -> NDArray[np.bool_]:
@@ -83,76 +80,104 @@ def _grow(
     return tuple(places) if is_admissible(links, rules, places) else None
 
 
+class _Search:
+    """Branch and bound over formations and bounds τ on the arrivals; times count from r·T_c.
+
+    For a bound τ each agent has a cost at each place of a formation, and the cheapest assignment
+    has Φ = N·t_c + its cost, which rises as τ falls. So it serves all bounds down to its own t_c,
+    and bounds Φ for all below.
+    """
+
+    def __init__(self) -> None:
+        self._formations: list[_Formation] = []
+        # Bound on Φ, index of the formation, and the interval of τ that it holds for.
+        self._open: list[tuple[float, int, float, float]] = []
+
+    def add(self, formation: "_Formation") -> None:
+        """Take in a formation."""
+        earliest_s = formation.earliest_s
+        if earliest_s < np.inf:
+            entry = (-np.inf, len(self._formations), earliest_s, np.inf)
+            heapq.heappush(self._open, entry)
+        self._formations.append(formation)
+
+    def least(self) -> Profile | None:
+        """Return the cheapest assignment of all."""
+        best_s, best = np.inf, None
+        while self._open and self._open[0][0] < best_s:
+            _, index, low_s, high_s = heapq.heappop(self._open)
+            formation = self._formations[index]
+            cost_s, meeting_s, profile = formation.assign(high_s)
+            if formation.team * meeting_s + cost_s < best_s:
+                best_s, best = formation.team * meeting_s + cost_s, profile
+            middle_s = (low_s + meeting_s) / 2.0
+            if low_s < middle_s < meeting_s:
+                below_s = np.nextafter(meeting_s, -np.inf)
+                self._push(index, low_s, middle_s, cost_s)
+                self._push(index, np.nextafter(middle_s, np.inf), below_s, cost_s)
+        return best
+
+    def _push(self, index: int, low_s: float, high_s: float, cost_s: float) -> None:
+        bound_s = self._formations[index].team * low_s + cost_s
+        if bound_s < np.inf:
+            heapq.heappush(self._open, (bound_s, index, low_s, high_s))
+
+
 @dataclass(frozen=True, slots=True)
-class _Assignment:
-    """Which agent goes to which of as many places; times count from r·T_c.
+class _Formation:
+    """As many places as agents, and what the agents need there; times count from r·T_c.
 
     Attributes:
-        places: of the formation.
-        since_s: per agent, [H, N] t at each place; +inf where inadmissible.
+        places: the places.
+        since_s: [N, H, N] t of each agent, candidate and place; +inf where inadmissible.
         gain_s: the same for δ − t.
     """
 
     places: tuple[int, ...]
-    since_s: tuple[NDArray[np.float64], ...]
-    gain_s: tuple[NDArray[np.float64], ...]
+    since_s: NDArray[np.float64]
+    gain_s: NDArray[np.float64]
 
     @classmethod
     def of(cls, problem: RoundProblem, places: tuple[int, ...]) -> Self:
-        """Return the agents' times at the places of a formation."""
+        """Return the agents' times at the places."""
         opens_s, _ = problem.window_s
         columns = list(places)
-        since_s = [own.arrival_s[:, columns] - opens_s for own in problem.candidates]
-        gain_s = [
-            own.extra_s[:, columns] - np.where(np.isfinite(own_s), own_s, 0.0)
-            for own, own_s in zip(problem.candidates, since_s, strict=True)
-        ]
-        return cls(places, tuple(since_s), tuple(gain_s))
+        rows = max(len(own.task_index) for own in problem.candidates)
+        since_s = np.full((len(places), rows, len(places)), np.inf)
+        gain_s = since_s.copy()
+        for agent, own in enumerate(problem.candidates):
+            arrival_s = own.arrival_s[:, columns] - opens_s
+            since_s[agent, : len(arrival_s)] = arrival_s
+            gain_s[agent, : len(arrival_s)] = own.extra_s[:, columns] - np.where(
+                np.isfinite(arrival_s), arrival_s, 0.0
+            )
+        return cls(places, since_s, gain_s)
 
-    def improve(self, best: tuple[float, Profile] | None) -> tuple[float, Profile] | None:
-        """Return the least potential and what attains it, if less than the best so far.
+    @property
+    def team(self) -> int:
+        """N."""
+        return len(self.places)
 
-        For a bound τ on the arrivals, each agent has a cost at each place and the cheapest
-        assignment has Φ = N·t_c + its cost; it serves all bounds down to its own t_c. So the bound
-        falls from one t_c to the next until no earlier meeting can make up for the cost.
+    @property
+    def earliest_s(self) -> float:
+        """When everybody can be anywhere, not before the window opens."""
+        return max(0.0, float(self.since_s.min(axis=(1, 2)).max()))
+
+    def assign(self, bound_s: float) -> tuple[float, float, Profile]:
+        """Return the cheapest assignment for t ≤ τ: its cost, its t_c and itself.
+
+        Both are +inf, and the profile means nothing, if there is none.
         """
-        team = len(self.places)
-        earliest_s = max(0.0, *(float(own_s.min()) for own_s in self.since_s))
-        bound_s = np.inf
-        while True:
-            cost_s, profile, meeting_s = self._cheapest(bound_s)
-            least_s = team * earliest_s + cost_s
-            if least_s == np.inf or (best is not None and least_s >= best[0]):
-                return best
-            if best is None or team * meeting_s + cost_s < best[0]:
-                best = team * meeting_s + cost_s, profile
-            if meeting_s <= earliest_s:
-                return best
-            bound_s = np.nextafter(meeting_s, -np.inf)
-
-    def _cheapest(self, bound_s: float) -> tuple[float, Profile, float]:
-        """Return the cheapest assignment for t ≤ τ: its cost, itself and its t_c."""
-        costs_s, rows = self._costs(bound_s)
-        agents, columns = linear_sum_assignment(_comparable(costs_s))
-        candidates = rows[agents, columns].tolist()
-        times_s = [
-            float(own_s[candidate, column])
-            for own_s, candidate, column in zip(self.since_s, candidates, columns, strict=True)
-        ]
+        in_time_s = np.where(self.since_s <= bound_s, self.gain_s, np.inf)
+        agents, columns = linear_sum_assignment(_comparable(in_time_s.min(axis=1)))
+        candidates = in_time_s.argmin(axis=1)[agents, columns]
         profile = Profile(
             location=tuple(self.places[column] for column in columns.tolist()),
-            candidate=tuple(candidates),
+            candidate=tuple(candidates.tolist()),
         )
-        return sum(costs_s[agents, columns].tolist()), profile, max(0.0, *times_s)
-
-    def _costs(self, bound_s: float) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
-        """Return [N, N] the least δ − t of each agent at each place for t ≤ τ, and its rows."""
-        rows, costs_s = [], []
-        for since_s, gain_s in zip(self.since_s, self.gain_s, strict=True):
-            in_time_s = np.where(since_s <= bound_s, gain_s, np.inf)
-            rows.append(np.argmin(in_time_s, axis=0))
-            costs_s.append(in_time_s.min(axis=0))
-        return np.array(costs_s), np.array(rows)
+        cost_s = sum(in_time_s[agents, candidates, columns].tolist())
+        meeting_s = float(self.since_s[agents, candidates, columns].max())
+        return cost_s, max(0.0, meeting_s) if cost_s < np.inf else np.inf, profile
 
 
 def _comparable(costs_s: NDArray[np.float64]) -> NDArray[np.float64]:

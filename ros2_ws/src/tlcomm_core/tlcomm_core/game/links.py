@@ -74,9 +74,9 @@ class Neighbourhood:
         return Neighbourhood(np.where(places < 0, filling, places), self.is_reflexive)
 
     def least(self, cost: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the least of a cost float[Z] over the neighbours of each place, float[Z]."""
-        costs = cost if self.is_reflexive else np.append(cost, np.inf)
-        least: NDArray[np.float64] = costs[self.places].min(axis=1)
+        """Return the least of a cost float[..., Z] over the neighbours of each place, likewise."""
+        costs = cost if self.is_reflexive else _with_nowhere(cost)
+        least: NDArray[np.float64] = costs[..., self.places.T].min(axis=-2)
         return least
 
     def cheapest(self, cost: NDArray[np.float64], place: int) -> int:
@@ -84,6 +84,11 @@ class Neighbourhood:
         near = self.places[place]
         near = near[near < len(cost)]
         return int(near[np.argmin(cost[near])])
+
+
+def _with_nowhere(cost: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return costs float[..., Z] with one more place, where nobody can be."""
+    return np.append(cost, np.full((*cost.shape[:-1], 1), np.inf), axis=-1)
 
 
 def _filling(count: int, *, is_reflexive: bool) -> NDArray[np.intp]:
