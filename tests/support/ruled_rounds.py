@@ -45,8 +45,8 @@ def ruled_problem(
     problem = sample_problem(rng, *size)
     links = Links(problem.locations_m, max(problem.range_m, 0.75))
     if is_blind:
-        lots = rng.uniform(size=(len(links), len(links)))
-        seen = (lots + lots.T) / 2.0 >= _BLIND
+        lots = np.triu(rng.uniform(size=(len(links), len(links))))
+        seen = lots + lots.T >= _BLIND
         links = Links(links.locations_m, links.range_m, lambda place, others: seen[place, others])
     return replace(problem, links=links, rules=rules)
 

@@ -5,6 +5,7 @@
 ``Neighbourhood``  the same as a table, for sweeps over all places
 """
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -143,6 +144,37 @@ class Links:
             near.setflags(write=False)
             self._near[place] = near
         return near
+
+    @property
+    def blind_pairs(self) -> tuple[tuple[int, int], ...]:
+        """The pairs of places, i < j, in range of each other but not in sight. Cost: O(Z²)."""
+        if self._sight is None:
+            return ()
+        pairs: list[tuple[int, int]] = []
+        for place in range(len(self)):
+            here_m, beyond_m = self.locations_m[place : place + 1], self.locations_m[place + 1 :]
+            in_range = within_range(here_m, beyond_m, self.range_m)[0]
+            in_range[self.near(place)[self.near(place) > place] - place - 1] = False
+            pairs += [(place, place + 1 + other) for other in np.flatnonzero(in_range).tolist()]
+        return tuple(pairs)
+
+    @classmethod
+    def without(
+        cls,
+        locations_m: NDArray[np.float64],
+        range_m: float,
+        blind_pairs: Iterable[tuple[int, int]],
+    ) -> "Links":
+        """Return the links between places in range but for some pairs of them."""
+        hidden: dict[int, list[int]] = defaultdict(list)
+        for one, other in blind_pairs:
+            hidden[one].append(other)
+            hidden[other].append(one)
+
+        def sees(place: int, others: NDArray[np.intp]) -> NDArray[np.bool_]:
+            return ~np.isin(others, hidden.get(place, []))
+
+        return cls(locations_m, range_m, sees if hidden else None)
 
     def place_at(self, x_m: float, y_m: float) -> int | None:
         """Return the place that lies exactly there, the first of several; None if none does."""
