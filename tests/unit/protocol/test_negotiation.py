@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from support.fake_network import FakeNetwork
@@ -229,3 +230,17 @@ def test_the_meeting_graph_relies_on_as_little_as_connects(
     """Links that hold for sure, or else the shortest that connect the team, and its diameter."""
     offers = make_offers(at_m, [0.0] * len(at_m))
     assert _meeting_graph(offers, make_team(len(at_m))) == expected
+
+
+def test_the_meeting_graph_relies_on_the_surest_sightings_that_connect() -> None:
+    """Links that are seen for sure, else those that are seen at all, else those in range."""
+    offers = make_offers([(0.0, 0.0), (0.5, 0.0), (0.9, 0.0)], [0.0] * 3)
+    team = make_team(3)
+    triangle = np.ones((3, 3), dtype=np.bool_)
+    chain, pair = triangle.copy(), triangle.copy()
+    chain[0, 2] = chain[2, 0] = False
+    pair[2, :2] = pair[:2, 2] = False
+    assert _meeting_graph(offers, team, [triangle]) == (((0, 1), (0, 2), (1, 2)), 1)
+    assert _meeting_graph(offers, team, [chain, triangle]) == (((0, 1), (1, 2)), 2)
+    assert _meeting_graph(offers, team, [pair, chain]) == (((0, 1), (1, 2)), 2)
+    assert _meeting_graph(offers, team, [pair, pair]) == (((0, 1), (0, 2), (1, 2)), 1)

@@ -41,9 +41,11 @@ can't see the same of it still repeats its last exchanges, and that it answers.
 import math
 from collections.abc import Sequence
 from enum import Enum
+from itertools import product
 from typing import Final, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.game.links import LINK_TOLERANCE_M
@@ -64,7 +66,7 @@ from tlcomm_core.protocol.messages import (
 )
 from tlcomm_core.protocol.reception import Reception
 from tlcomm_core.protocol.team import Team
-from tlcomm_core.world.radio import diameter, distances_m, links
+from tlcomm_core.world.radio import diameter, distances_m, edges, pair_indices
 
 __all__ = ["Negotiation", "Phase", "Rounds"]
 
@@ -86,6 +88,12 @@ class Rounds(Protocol):
 
     def is_sound(self, offer: MemberOffer) -> bool:
         """Return whether a round problem can be posed with a peer's offer."""
+
+    def sightings(self, offers: Sequence[MemberOffer]) -> tuple[NDArray[np.bool_], ...]:
+        """Return masks [N, N] of which members see each other, from the surest to the least sure.
+
+        None if their radios needn't see.
+        """
 
     def problem(
         self, round_: int, departure_s: float, offers: Sequence[MemberOffer]
@@ -253,10 +261,10 @@ class Negotiation:
 
     def _begin_improving(self, departure_s: float) -> Improving:
         offers = self._gathering.offers
-        edges, exchanges = _meeting_graph(offers, self._team)
+        links, exchanges = _meeting_graph(offers, self._team, self._rounds.sightings(offers))
         names = [offer.agent for offer in offers]
         own = names.index(self._own)
-        self._neighbours = frozenset(names[i + j - own] for i, j in edges if own in (i, j))
+        self._neighbours = frozenset(names[i + j - own] for i, j in links if own in (i, j))
         return Improving(
             self._own,
             self._rounds.problem(self._round, departure_s, offers),
@@ -290,20 +298,24 @@ class Negotiation:
 
 
 def _meeting_graph(
-    offers: Sequence[MemberOffer], team: Team
+    offers: Sequence[MemberOffer], team: Team, sightings: Sequence[NDArray[np.bool_]] = ()
 ) -> tuple[tuple[tuple[int, int], ...], int]:
     """Return the links that exchanges wait for, and how many exchanges reach everyone.
 
     These are the links that hold although both ends are off by their tolerance: a pair reported
-    exactly R apart may hear each other or not. Only a team that isn't connected by such links, as
-    at its start it may not be, relies on longer ones, up to the first length that connects it.
+    exactly R apart, or along a wall, may hear each other or not. Only a team that isn't connected
+    by such links, as at its start it may not be, relies on longer ones, up to the first length that
+    connects it; or else on less sure sightings, and at last on none.
     """
     places_m = np.array([(offer.x_m, offer.y_m) for offer in offers])
     sure_m = team.planned_range_m + LINK_TOLERANCE_M
-    lengths_m = np.unique(distances_m(places_m))
-    for range_m in (sure_m, *lengths_m[lengths_m > sure_m].tolist()):
-        edges = links(places_m, range_m)
-        hops = diameter(len(offers), edges)
+    distance_m = distances_m(places_m)
+    longer_m = np.unique(distance_m[distance_m > sure_m]).tolist()
+    pairs = pair_indices(len(offers))
+    masks = (*(sighting[pairs] for sighting in sightings), np.ones(len(distance_m), dtype=np.bool_))
+    for is_seen, range_m in product(masks, (sure_m, *longer_m)):
+        links = edges(len(offers), is_seen & (distance_m <= range_m))
+        hops = diameter(len(offers), links)
         if hops is not None:
-            return edges, max(1, hops)
+            return links, max(1, hops)
     raise LocalMisuseError(f"{places_m!r} are places at no finite distance")

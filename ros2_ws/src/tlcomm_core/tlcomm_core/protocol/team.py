@@ -28,6 +28,8 @@ class Team:
         max_iterations: K of Algorithm 1.
         rules: what the places of meetings must be, beside connected.
         margin_s: how long before its window's end a meeting begins at the latest.
+        clearance_m: how far from obstacles members see each other for sure, although each may be
+            off its place; ``None`` if their radios don't need to see.
     """
 
     members: frozenset[str]
@@ -40,6 +42,7 @@ class Team:
     max_iterations: int = 1000
     rules: Rules = PLAIN_RULES
     margin_s: float = ROUNDING_S
+    clearance_m: float | None = None
 
     def opens_s(self, round_: int) -> float:
         """Return when a round's window opens, r·T_c."""
