@@ -50,7 +50,7 @@ def test_at_the_start_everything_is_told() -> None:
         Odometry(0, "agent_0", Pose(1.0, 1.0, 0.0), 0.0, 0.0),
         Odometry(0, "agent_1", Pose(2.0, 1.0, 0.0), 0.0, 0.0),
         Odometry(0, "agent_2", Pose(5.0, 1.0, 0.0), 0.0, 0.0),
-        Connectivity(0, ((0, 1),), connected=False),
+        Connectivity(0, ((0, 1),), connected=False, distances_m=(1.0,)),
     )
     assert simulated.advance_to(0) == ()
 

@@ -5,9 +5,10 @@
 ``encode_action``      what the agent does, of ``PublishedAction``
 ``encode_message``     what the agent says
 ``decode_message``     what another agent says, validated
-``encode_drive``, ``encode_task_event``, ``encode_team_strategy``, ``encode_round_timing``
+``encode_drive``, ``encode_task_event``, ``encode_team_strategy``, ``encode_round_timing``,
+``encode_undelivered`` the rest of what it publishes
 ``decode_odometry``    where the agent is
-``decode_neighbours``  who is in range of one agent, of ``Connectivity``
+``decode_neighbours``  who is in range of one agent, and how far away, of ``Connectivity``
 ``WireError``          why a message is refused
 """
 
@@ -46,6 +47,7 @@ __all__ = [
     "encode_round_timing",
     "encode_task_event",
     "encode_team_strategy",
+    "encode_undelivered",
 ]
 
 TEAM_TYPES: Final[Mapping[str, Any]] = MappingProxyType(
@@ -62,6 +64,7 @@ TYPES: Final[Mapping[str, Any]] = MappingProxyType(
         "task_event": msg.TaskEvent,
         "team_strategy": msg.TeamStrategy,
         "round_timing": msg.RoundTiming,
+        "undelivered": msg.Undelivered,
         # Nothing is estimated yet, but the topic is there for those who look for it.
         "estimate": msg.Estimate,
     }
@@ -226,6 +229,13 @@ def encode_round_timing(timing: RoundTiming, stamp_ns: int) -> _RosMessage:
     )
 
 
+def encode_undelivered(counts: Mapping[str, int], agent: str, stamp_ns: int) -> _RosMessage:
+    """Return how many messages an agent's radio hasn't let through, by reason."""
+    return msg.Undelivered(
+        header=_header(stamp_ns), agent=agent, reasons=list(counts), counts=list(counts.values())
+    )
+
+
 def decode_odometry(message: _RosMessage, agent: str) -> Odometry:
     """Return where an agent is and how it moves.
 
@@ -247,21 +257,29 @@ def decode_odometry(message: _RosMessage, agent: str) -> Odometry:
     )
 
 
-def decode_neighbours(message: _RosMessage, agent: str) -> tuple[frozenset[str], int]:
-    """Return who is in range of an agent, and since when (ns).
+def decode_neighbours(message: _RosMessage, agent: str) -> tuple[dict[str, float], int]:
+    """Return how far away those are that are in range of an agent, and since when (ns).
+
+    Where distances aren't given, they are taken to be the range.
 
     Raises:
-        WireError: the agent isn't listed, or an edge leads nowhere.
+        WireError: the agent isn't listed, an edge leads nowhere, or has no proper distance.
     """
     names, ends = _names(message.agents, "agents"), message.edges
     if agent not in names:
         raise WireError(f"agents: {agent!r} isn't among {len(names)} names")
     if len(ends) % 2 or any(end >= len(names) for end in ends):
         raise WireError(f"edges: not pairs of indices below {len(names)}")
-    own = names.index(agent)
     pairs = list(zip(ends[::2], ends[1::2], strict=True))
-    indices = {j for i, j in pairs if i == own} | {i for i, j in pairs if j == own}
-    return frozenset(names[index] for index in indices), _decode_stamp(message.header.stamp)
+    lengths_m = message.distances or [message.range] * len(pairs)
+    if len(lengths_m) != len(pairs):
+        raise WireError(f"distances: {len(lengths_m)} of {len(pairs)} pairs")
+    own = names.index(agent)
+    return {
+        names[i + j - own]: _finite(length_m, "distances")
+        for (i, j), length_m in zip(pairs, lengths_m, strict=True)
+        if own in {i, j}
+    }, _decode_stamp(message.header.stamp)
 
 
 def _encode_offer(offer: MemberOffer) -> _RosMessage:
