@@ -57,9 +57,8 @@ class _Layout:
         self.end = 0
 
     def numbers(self, width: int, count: int = 1) -> None:
-        """Add some numbers of equal width; none take no room."""
-        if count:
-            self.end += -self.end % width + width * count
+        """Add some numbers of equal width; what aligns them is there even if they are none."""
+        self.end += -self.end % width + width * count
 
     def text(self, value: str) -> None:
         """Add a text: its length, its bytes and a zero."""
