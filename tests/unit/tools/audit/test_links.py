@@ -68,9 +68,15 @@ def test_along_a_wall_there_is_sight() -> None:
 
 def test_a_moving_pair_passes_an_obstacle() -> None:
     """Both drive, a metre apart in line abreast: each corner counts at its own time."""
-    one, other = track((0.0, 0.0, 0.0), (10.0, 10.0, 0.0)), track((0.0, 0.0, 1.0), (10.0, 10.0, 1.0))
+    one, other = (
+        track((0.0, 0.0, 0.0), (10.0, 10.0, 0.0)),
+        track((0.0, 0.0, 1.0), (10.0, 10.0, 1.0)),
+    )
     first, second = link_intervals(one, other, 1.0, [(4.0, 0.4, 6.0, 0.6)])
-    assert (first, second) == (pytest.approx((0.0, 4.0), abs=1e-5), pytest.approx((6.0, 10.0), abs=1e-5))
+    assert (first, second) == (
+        pytest.approx((0.0, 4.0), abs=1e-5),
+        pytest.approx((6.0, 10.0), abs=1e-5),
+    )
 
 
 POINTS = st.tuples(st.floats(-2, 2), st.floats(-2, 2))
