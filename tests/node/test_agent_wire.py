@@ -9,12 +9,19 @@ from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
 
 from tlcomm_agent import wire
+from tlcomm_agent.wire_fields import WireError
 from tlcomm_core.agent.actions import Drive, TaskEvent, TaskEventKind
 from tlcomm_core.game.offer import MAX_STOPS, MemberOffer, PlannedStop
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.actions import SendMessage
-from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
+from tlcomm_core.protocol.messages import (
+    BestResponse,
+    Confirmation,
+    Message,
+    PlanOffer,
+    Proposal,
+)
 from tlcomm_core.protocol.size import size_bytes
 from tlcomm_core.records import RoundTiming, StrategyRecord, TaskRecord
 from tlcomm_core.world.observation import Connectivity, Odometry
@@ -51,6 +58,17 @@ OFFERS = st.builds(
 )
 MESSAGES = st.one_of(
     st.builds(PlanOffer, NAMES, UINT32, NAME_TUPLES, st.lists(OFFERS, max_size=3).map(tuple)),
+    st.builds(
+        Proposal,
+        NAMES,
+        UINT32,
+        UINT32,
+        st.integers(0, 2**16 - 1),
+        NAMES,
+        FLOATS,
+        FLOATS | st.just(-math.inf),
+        st.lists(STRATEGIES, max_size=4).map(tuple),
+    ),
     st.builds(
         BestResponse, NAMES, UINT32, UINT32, st.integers(0, 2**16 - 1), NAMES, FLOATS, STRATEGIES
     ),
@@ -214,7 +232,7 @@ def assign(message: RosMessage, path: str, value: object) -> RosMessage:
 )
 def test_malformed_messages_are_refused(message: RosMessage, path: str, value: object) -> None:
     """Names, sizes, stamps and numbers out of their range are refused by name."""
-    with pytest.raises(wire.WireError):
+    with pytest.raises(WireError):
         wire.decode_message(assign(message, path, value))
 
 
@@ -231,5 +249,5 @@ def test_malformed_messages_are_refused(message: RosMessage, path: str, value: o
 )
 def test_malformed_connectivity_is_refused(message: RosMessage) -> None:
     """A connectivity without the agent, or with edges that lead nowhere, is refused."""
-    with pytest.raises(wire.WireError):
+    with pytest.raises(WireError):
         wire.decode_neighbours(message, "a")

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from tlcomm_core.game.offer import MemberOffer, PlannedStop
 from tlcomm_core.game.strategy import Strategy
-from tlcomm_core.protocol.messages import BestResponse, Confirmation, PlanOffer
+from tlcomm_core.protocol.messages import BestResponse, Confirmation, PlanOffer, Proposal
 from tlcomm_core.protocol.size import size_bytes
 
 STOP = PlannedStop(1, 2.0, 3.0, 0.5, 4.0)
@@ -32,6 +32,15 @@ def test_offers_grow_with_their_stops() -> None:
     assert sizes[2] - sizes[1] == 2 * (4 + 4 * 8)
     assert sizes[3] - sizes[2] == 6 * (4 + 4 * 8)
     assert size_bytes(replace(message, offers=(OFFER, OFFER))) > 2 * (sizes[1] - 40)
+
+
+def test_a_proposal_grows_with_the_team() -> None:
+    """A strategy takes a name, a place of three doubles, an index and two doubles."""
+    strategy = Strategy("b", 1.0, 2.0, 3, 4.0, 5.0)
+    small, large = (
+        size_bytes(Proposal("b", 1, 0, 0, "b", 9.0, 3.0, (strategy,) * count)) for count in (2, 5)
+    )
+    assert large - small == 3 * (4 + 2 + 2 + 3 * 8 + 4 + 4 + 2 * 8)
 
 
 def test_a_best_response_has_one_length() -> None:

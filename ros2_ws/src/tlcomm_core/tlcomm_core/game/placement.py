@@ -1,6 +1,5 @@
 """The cheapest connected placement of a team, each agent's costs by place given.
 
-``Neighbourhood``       which places are in range of which
 ``cheapest_placement``  the optimum, by dynamic programming over subsets of agents
 """
 
@@ -10,9 +9,9 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from tlcomm_core.game.connectivity import within_range
+from tlcomm_core.game.links import Neighbourhood
 
-__all__ = ["Neighbourhood", "Placement", "cheapest_placement"]
+__all__ = ["Placement", "cheapest_placement"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,45 +27,12 @@ class Placement:
     locations: tuple[int, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Neighbourhood:
-    """Which places are in range of which.
-
-    Attributes:
-        places: int[Z, D] the places in range of each, itself among them; shorter rows are filled
-            up with the place itself.
-    """
-
-    places: NDArray[np.intp]
-
-    @classmethod
-    def within(cls, locations_m: NDArray[np.float64], range_m: float) -> "Neighbourhood":
-        """Return the neighbourhood of the places [Z, 2] for a range. Cost: O(Z²)."""
-        linked = within_range(locations_m, locations_m, range_m)
-        degree = int(linked.sum(axis=1).max(initial=1))
-        here = np.arange(len(locations_m))[:, None]
-        order = np.argsort(~linked, axis=1, kind="stable")[:, :degree]
-        return cls(np.where(np.take_along_axis(linked, order, axis=1), order, here))
-
-    def among(self, kept: NDArray[np.intp]) -> "Neighbourhood":
-        """Return the neighbourhood of some of the places, which keep their order."""
-        index = np.full(len(self.places), -1, dtype=np.intp)
-        index[kept] = np.arange(len(kept))
-        places = index[self.places[kept]]
-        return Neighbourhood(np.where(places < 0, np.arange(len(kept))[:, None], places))
-
-    def least(self, cost: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the least of a cost float[Z] within range of each place, float[Z]."""
-        least: NDArray[np.float64] = cost[self.places].min(axis=1)
-        return least
-
-
 def cheapest_placement(costs: NDArray[np.float64], neighbourhood: Neighbourhood) -> Placement:
     """Return the connected placement of least total cost.
 
     Let g(S, z) be the least cost of a connected placement of the agents S with one of them at z.
     A spanning tree of such a placement, rooted there, has a subtree that can be split off: so
-    g(S, z) = min over S = A ∪ B of g(A, z) + min over z' within range of z of g(B, z').
+    g(S, z) = min over S = A ∪ B of g(A, z) + min over z' linked to z of g(B, z').
 
     Among equally cheap placements the same one is found wherever the costs are the same.
 
@@ -82,15 +48,14 @@ def cheapest_placement(costs: NDArray[np.float64], neighbourhood: Neighbourhood)
     Cost: O(3^N·Z + 2^N·Z·D) time, O(2^N·Z) memory.
     """
     count = len(costs)
-    table = np.empty((1 << count, costs.shape[1]))
-    reached = np.empty_like(table)
-    for subset in range(1, 1 << count):
-        if subset & (subset - 1):
-            parts = _parts(subset)
-            table[subset] = (table[parts] + reached[subset ^ parts]).min(axis=0)
-        else:
-            table[subset] = costs[subset.bit_length() - 1]
-        reached[subset] = neighbourhood.least(table[subset])
+    table = np.full((1 << count, costs.shape[1]), np.inf)
+    reached = np.full_like(table, np.inf)
+    table[1 << np.arange(count)] = costs
+    for layer in _layers(count):
+        for subset in layer.tolist():
+            if subset & (subset - 1):
+                table[subset] = _cheapest_split(table, reached, subset)
+        reached[layer] = neighbourhood.least(table[layer])
     everybody = (1 << count) - 1
     root = int(np.argmin(table[everybody]))
     locations = [root] * count
@@ -98,6 +63,33 @@ def cheapest_placement(costs: NDArray[np.float64], neighbourhood: Neighbourhood)
     if np.isfinite(cost):
         _trace(table, reached, neighbourhood, everybody, root, locations)
     return Placement(cost, tuple(locations))
+
+
+def _cheapest_split(
+    table: NDArray[np.float64], reached: NDArray[np.float64], subset: int
+) -> NDArray[np.float64]:
+    """Return the least of g(A, z) + min g(B, z') over all splits of a set, float[Z].
+
+    With an axis for each agent, the parts A are a view of the table, and what they leave is the
+    same view of the other one, backwards: nothing is copied before it is added. The empty part and
+    the whole are +inf as yet.
+    """
+    count = len(table).bit_length() - 1
+    members = [subset >> agent & 1 for agent in reversed(range(count))]
+    inside = tuple(slice(None) if is_member else 0 for is_member in members)
+    backwards = (slice(None, None, -1),) * sum(members)
+    shape = (2,) * count + table.shape[1:]
+    totals = table.reshape(shape)[inside] + reached.reshape(shape)[inside][backwards]
+    least: NDArray[np.float64] = totals.reshape(-1, table.shape[1]).min(axis=0)
+    return least
+
+
+@cache
+def _layers(count: int) -> tuple[NDArray[np.intp], ...]:
+    """Return the subsets of each size from 1 on, as bit masks."""
+    subsets = np.arange(1 << count)
+    sizes = np.array([subset.bit_count() for subset in range(1 << count)])
+    return tuple(subsets[sizes == size] for size in range(1, count + 1))
 
 
 @cache

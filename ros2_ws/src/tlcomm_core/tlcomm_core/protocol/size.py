@@ -13,7 +13,7 @@ from typing import Final, assert_never
 
 from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.strategy import Strategy
-from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
+from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer, Proposal
 
 __all__ = ["size_bytes"]
 
@@ -35,6 +35,14 @@ def size_bytes(message: Message) -> int:
             layout.numbers(_INT)
             for offer in message.offers:
                 _lay_offer(layout, offer)
+        case Proposal():
+            layout.numbers(_INT, 2)
+            layout.numbers(_SHORT)
+            layout.text(message.candidate)
+            layout.numbers(_DOUBLE, 2)
+            layout.numbers(_INT)
+            for strategy in message.strategies:
+                _lay_strategy(layout, strategy)
         case BestResponse():
             layout.numbers(_INT, 2)
             layout.numbers(_SHORT)

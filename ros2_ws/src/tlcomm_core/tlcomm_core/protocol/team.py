@@ -5,6 +5,8 @@
 
 from dataclasses import dataclass
 
+from tlcomm_core.game.solver import DEFAULT, Solver
+
 __all__ = ["Team"]
 
 
@@ -20,6 +22,7 @@ class Team:
         duration_s: D_c.
         retry_s: a message not known to be superseded is repeated after this time.
         patience_s: while members are missing, repetitions become rarer up to this interval.
+        solver: how next meetings are found.
         max_iterations: K of Algorithm 1.
     """
 
@@ -27,6 +30,7 @@ class Team:
     planned_range_m: float
     period_s: float
     duration_s: float
+    solver: Solver = DEFAULT
     retry_s: float = 0.1
     patience_s: float = 1.6
     max_iterations: int = 1000
