@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tlcomm_core.agent.channel import LOST
+from tlcomm_core.game.solver import DEFAULT
 from tlcomm_core.mission import Mission
 from tlcomm_core.pace import Pace, parse_pace
 from tlcomm_core.records import event_log
@@ -33,7 +34,7 @@ def options_of(
     return RunOptions(
         scenario=scenario,
         method="team",
-        solver="best-response",
+        solver=DEFAULT,
         seed=0,
         pace=pace,
         rounds=rounds,
