@@ -5,6 +5,8 @@
 
 from dataclasses import dataclass
 
+from tlcomm_core.game.candidates import ROUNDING_S
+from tlcomm_core.game.rules import PLAIN_RULES, Rules
 from tlcomm_core.game.solver import DEFAULT, Solver
 
 __all__ = ["Team"]
@@ -24,6 +26,8 @@ class Team:
         patience_s: while members are missing, repetitions become rarer up to this interval.
         solver: how next meetings are found.
         max_iterations: K of Algorithm 1.
+        rules: what the places of meetings must be, beside connected.
+        margin_s: how long before its window's end a meeting begins at the latest.
     """
 
     members: frozenset[str]
@@ -34,6 +38,8 @@ class Team:
     retry_s: float = 0.1
     patience_s: float = 1.6
     max_iterations: int = 1000
+    rules: Rules = PLAIN_RULES
+    margin_s: float = ROUNDING_S
 
     def opens_s(self, round_: int) -> float:
         """Return when a round's window opens, r·T_c."""
