@@ -220,7 +220,14 @@ def _agent(name: str, records: RunRecords) -> dict[str, Any]:
             earlier.distance_m(later.x_m, later.y_m) for earlier, later in pairwise(poses)
         ),
         "messages_sent": records.messages_sent.get(name),
+        "messages_undelivered": _undelivered(name, records),
     }
+
+
+def _undelivered(agent: str, records: RunRecords) -> dict[str, int] | None:
+    """Return how many messages an agent's radio didn't let through, by reason; None: unknown."""
+    counts = records.messages_undelivered.get(agent)
+    return None if counts is None else dict(sorted(counts.items()))
 
 
 def _satisfied_ns(agent: str, records: RunRecords) -> Iterator[int]:
