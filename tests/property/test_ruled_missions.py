@@ -14,7 +14,7 @@ from tlcomm_core.mission import Mission
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.generator import random_scenario
 from tlcomm_core.scenario.loader import load_scenario
-from tlcomm_core.scenario.model import DriveOverride, Scenario
+from tlcomm_core.scenario.model import DriveOverride, Noise, Radio, Scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate
 from tlcomm_core.windows import judge_windows
@@ -123,3 +123,35 @@ def test_without_demands_places_are_shared_and_hang_on_single_agents() -> None:
     for name in ("apart", "resilient"):
         asked = demanding(scenario, name)
         assert not all(is_as_demanded(own.strategy, asked) for own in records.strategies)
+
+
+def blind_team(seed: int) -> Scenario:
+    """Return a random scenario whose radios reach far, but not past obstacles."""
+    scenario = random_team(seed)
+    reach = {"range_m": 2.0}
+    return scenario.model_copy(
+        update={
+            "communication": scenario.communication.model_copy(update=reach),
+            "radio": Radio(line_of_sight=True),
+        }
+    )
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_teams_that_have_to_see_each_other_keep_their_windows(seed: int) -> None:
+    """In every round, past all obstacles, off their places as they are."""
+    scenario = blind_team(seed)
+    assert_kept(scenario.model_copy(update={"noise": Noise(linear=0.05, angular=0.05)}))
+
+
+def test_meetings_planned_without_sight_would_be_missed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same teams, planning as if obstacles were no hindrance, lose windows by them."""
+    monkeypatch.setattr(Site, "planned_clearance_m", None)
+    with pytest.raises(AssertionError):
+        keep_all(blind_team(seed) for seed in range(3))
+
+
+def keep_all(scenarios: Iterable[Scenario]) -> None:
+    """Assert that all runs keep their windows."""
+    for scenario in scenarios:
+        assert_kept(scenario)
