@@ -5,12 +5,14 @@ import pytest
 from support.hall import STARTS, hall, make_member
 from tlcomm_core.agent.actions import CountIgnored, Drive, SendMessage
 from tlcomm_core.agent.controller import Pacing
-from tlcomm_core.agent.member import Member, create
+from tlcomm_core.agent.member import Member, create, team_of
 from tlcomm_core.errors import PlanningError
+from tlcomm_core.game.rules import Rules
 from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.protocol.negotiation import Phase
 from tlcomm_core.scenario.loader import dumps, loads
+from tlcomm_core.scenario.model import Radio
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.workspace.atlas import Atlas
@@ -133,3 +135,16 @@ def test_an_impossible_task_is_refused() -> None:
     site = Site.from_scenario(loads(text))
     with pytest.raises(PlanningError):
         create("one", site, Pacing.EVENT, Atlas(site.grid))
+
+
+def test_a_team_knows_what_its_scenario_demands_of_meetings() -> None:
+    """Rules, margin and clearance, which is what an agent may be off."""
+    site = hall(2)
+    demands = {"separation_m": 0.5, "resilience": 1, "margin_s": 2.0}
+    communication = site.scenario.communication.model_copy(update=demands)
+    scenario = site.scenario.model_copy(
+        update={"communication": communication, "radio": Radio(line_of_sight=True)}
+    )
+    team = team_of(Site.from_scenario(scenario))
+    assert (team.rules, team.margin_s, team.clearance_m) == (Rules(0.5, 1), 2.0, 0.02)
+    assert team_of(site).clearance_m is None
