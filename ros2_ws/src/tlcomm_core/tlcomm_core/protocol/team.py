@@ -20,6 +20,7 @@ class Team:
         duration_s: D_c.
         retry_s: a message not known to be superseded is repeated after this time.
         patience_s: while members are missing, repetitions become rarer up to this interval.
+        linger_s: after the meeting, whoever holds what a neighbour may lack stays for so long.
         max_iterations: K of Algorithm 1.
     """
 
@@ -29,6 +30,7 @@ class Team:
     duration_s: float
     retry_s: float = 0.1
     patience_s: float = 1.6
+    linger_s: float = 0.5
     max_iterations: int = 1000
 
     def opens_s(self, round_: int) -> float:
@@ -38,3 +40,11 @@ class Team:
     def window_s(self, round_: int) -> tuple[float, float]:
         """Return a round's window [r·T_c, (r+1)·T_c)."""
         return self.opens_s(round_), self.opens_s(round_ + 1)
+
+    def confirmable_until_s(self, round_: int) -> float:
+        """Return until when a round may be confirmed by an agent: D_c into its window.
+
+        Then every meeting that began in the window before has lasted for D_c, and T_c − D_c are
+        left to get to the places of this round in its window.
+        """
+        return self.opens_s(round_) + self.duration_s
