@@ -49,7 +49,7 @@ ARROWS: dict[str, set[str]] = {
     },
     "world": {"errors", "geometry", "units", "workspace", "world.radio", "world.unicycle"},
     "records": {"agent", "game", "world"},
-    "mission": {"scenario", "units", "world"},
+    "mission": {"game", "scenario", "units", "world"},
     "metrics": {"agent", "game", "records", "scenario", "units", "windows", "world"},
     "simulation": {
         "agent",
@@ -184,7 +184,7 @@ def ros_flaws(module: Module) -> list[str]:
     is_shell = package in {"tlcomm_agent", "tlcomm_sim"}
     is_runtime = module.name.startswith("tlcomm_tools.runtime.")
     may_spin = is_runtime or (is_shell and last == "node")
-    may_speak = may_spin or (last == "wire" and package != "tlcomm_core")
+    may_speak = may_spin or (last.startswith("wire") and package != "tlcomm_core")
     return [
         f"{module.name} -> {name}"
         for name in imported(module)

@@ -1,7 +1,6 @@
 """The agent's node, with a test in the place of sim and neighbours."""
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -9,11 +8,11 @@ import pytest
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry as OdometryMessage
 from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_msgs.msg import Header
 
+from support.spinning import SpunNodes
 from tlcomm_agent.node import AgentNode, main
 from tlcomm_core.errors import InputError
 from tlcomm_core.geometry import Pose
@@ -35,16 +34,14 @@ def parameters(**values: object) -> list[Parameter]:
     return [Parameter(name, value=value) for name, value in chosen.items()]
 
 
-class Surroundings:
+class Surroundings(SpunNodes):
     """An agent's node beside one that speaks for everybody else."""
 
     def __init__(self, context: Context, **values: object) -> None:
         """Create both, and wait until they have found each other; ``values`` are parameters."""
         self.agent = AgentNode(namespace=OWN, parameters=parameters(**values), context=context)
         self.node = Node("test", context=context, use_global_arguments=False)
-        self.executor = SingleThreadedExecutor(context=context)
-        self.executor.add_node(self.agent)
-        self.executor.add_node(self.node)
+        super().__init__(context, self.agent, self.node)
         create, subscribe = self.node.create_publisher, self.node.create_subscription
         self.tick_pub = create(msg.Tick, f"/{OWN}/tick", 10)
         self.odometry_pub = create(OdometryMessage, f"/{OWN}/odom", 10)
@@ -60,19 +57,6 @@ class Surroundings:
         own = (self.tick_pub, self.odometry_pub, self.connectivity_pub, self.response_pub)
         self.until(lambda: all(publisher.get_subscription_count() for publisher in own))
         self.until(lambda: bool(self.answers))
-
-    def until(self, done: Callable[[], bool]) -> None:
-        """Spin both nodes until something holds, at most 10 s."""
-        for _ in range(1000):
-            if done():
-                return
-            self.executor.spin_once(timeout_sec=0.01)
-        raise AssertionError("nothing happened")
-
-    def settle(self) -> None:
-        """Spin until everything that has been published so far has been handled."""
-        for _ in range(50):
-            self.executor.spin_once(timeout_sec=0.005)
 
     def answered(self, sequence: int) -> bool:
         """Tell whether a tick has been answered."""
@@ -110,27 +94,20 @@ def response(**fields: object) -> msg.BestResponse:
     return msg.BestResponse(**{"sender": PEER, "candidate": PEER, "strategy": strategy, **fields})
 
 
-@contextmanager
-def living(own: Surroundings) -> Iterator[Surroundings]:
-    """Yield an agent with its surroundings, and take both down."""
-    yield own
-    own.executor.shutdown()
-    own.agent.destroy_node()
-    own.node.destroy_node()
-
-
 @pytest.fixture
 def surroundings(context: Context) -> Iterator[Surroundings]:
     """Yield an agent in lock step with its surroundings."""
-    with living(Surroundings(context)) as own:
-        yield own
+    own = Surroundings(context)
+    yield own
+    own.close()
 
 
 @pytest.fixture
 def free(context: Context) -> Iterator[Surroundings]:
     """Yield an agent that runs freely with its surroundings."""
-    with living(Surroundings(context, pace="1.0")) as own:
-        yield own
+    own = Surroundings(context, pace="1.0")
+    yield own
+    own.close()
 
 
 @pytest.mark.parametrize("last", ["odometry", "connectivity", "message"])

@@ -1,17 +1,17 @@
 """Another task for a running agent, by the real service."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 from nav_msgs.msg import Odometry as OdometryMessage
 from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from support.hall import STARTS, hall
+from support.spinning import SpunNodes
 from tlcomm_agent.node import AgentNode
 from tlcomm_core.geometry import Pose
 from tlcomm_core.scenario.loader import dumps
@@ -20,7 +20,7 @@ from tlcomm_msgs import msg, srv
 from tlcomm_sim.wire import encode_odometry
 
 
-class Asking:
+class Asking(SpunNodes):
     """A team of one at its first meeting, and who asks it to do something else."""
 
     def __init__(self, context: Context, folder: Path, pace: str) -> None:
@@ -31,23 +31,13 @@ class Asking:
         parameters = [Parameter(name, value=value) for name, value in chosen.items()]
         self.agent = AgentNode(namespace="one", parameters=parameters, context=context)
         self.node = Node("test", context=context, use_global_arguments=False)
-        self.executor = SingleThreadedExecutor(context=context)
-        self.executor.add_node(self.agent)
-        self.executor.add_node(self.node)
+        super().__init__(context, self.agent, self.node)
         self.odometry_pub = self.node.create_publisher(OdometryMessage, "/one/odom", 10)
         self.held: list[Any] = []
         self.node.create_subscription(msg.TeamStrategy, "/one/team_strategy", self.held.append, 10)
         self.client = self.node.create_client(srv.ChangeTask, "/one/change_task")
         self.until(self.client.service_is_ready)
         self.until(lambda: self.odometry_pub.get_subscription_count() > 0)
-
-    def until(self, done: Callable[[], bool]) -> None:
-        """Spin both nodes until something holds, at most 10 s."""
-        for _ in range(1000):
-            if done():
-                return
-            self.executor.spin_once(timeout_sec=0.01)
-        raise AssertionError("nothing happened")
 
     def agree(self) -> None:
         """Show the agent where it is; alone, it agrees with itself."""
@@ -61,12 +51,6 @@ class Asking:
         self.until(call.done)
         answer = call.result()
         return answer.accepted, answer.message
-
-    def close(self) -> None:
-        """Take both down."""
-        self.executor.shutdown()
-        self.agent.destroy_node()
-        self.node.destroy_node()
 
 
 @pytest.fixture

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
 
 from tlcomm_agent import wire
+from tlcomm_agent.wire_fields import WireError
 from tlcomm_core.agent.actions import Drive, TaskEvent, TaskEventKind
 from tlcomm_core.game.offer import MAX_STOPS, MemberOffer, PlannedStop
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
@@ -184,7 +185,7 @@ def assign(message: RosMessage, path: str, value: object) -> RosMessage:
 )
 def test_malformed_messages_are_refused(message: RosMessage, path: str, value: object) -> None:
     """Names, sizes, stamps and numbers out of their range are refused by name."""
-    with pytest.raises(wire.WireError):
+    with pytest.raises(WireError):
         wire.decode_message(assign(message, path, value))
 
 
@@ -199,5 +200,5 @@ def test_malformed_messages_are_refused(message: RosMessage, path: str, value: o
 )
 def test_malformed_connectivity_is_refused(message: RosMessage) -> None:
     """A connectivity without the agent, or with edges that lead nowhere, is refused."""
-    with pytest.raises(wire.WireError):
+    with pytest.raises(WireError):
         wire.decode_neighbours(message, "a")

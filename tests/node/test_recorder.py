@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 from ament_index_python.packages import get_package_share_directory
 from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 
+from support.spinning import SpunNodes
 from tlcomm_agent import node as agent_node
 from tlcomm_msgs import msg
 from tlcomm_sim import node as sim_node
@@ -63,7 +63,7 @@ class World:
         self.tick_pub.publish(msg.Tick(sequence=1, clock_count=2, agent_counts=[0, 0]))
 
 
-class Recording:
+class Recording(SpunNodes):
     """A recorder beside a world."""
 
     def __init__(self, context: Context, folder: Path) -> None:
@@ -75,28 +75,11 @@ class Recording:
         settings = recorder.RecorderSettings(folder, AGENTS)
         self.recorder = recorder.Recorder(settings, self.writer, self.notes, context)
         self.world = World(context)
-        self.executor = SingleThreadedExecutor(context=context)
-        self.executor.add_node(self.recorder)
-        self.executor.add_node(self.world.node)
-
-    def until(self, done: Callable[[], bool]) -> None:
-        """Spin both nodes until something holds, at most 10 s."""
-        for _ in range(1000):
-            if done():
-                return
-            self.executor.spin_once(timeout_sec=0.01)
-        raise AssertionError("nothing happened")
-
-    def settle(self) -> None:
-        """Spin until everything that has been published so far has been handled."""
-        for _ in range(50):
-            self.executor.spin_once(timeout_sec=0.005)
+        super().__init__(context, self.recorder, self.world.node)
 
     def close(self) -> None:
         """Take everything down."""
-        self.executor.shutdown()
-        self.recorder.destroy_node()
-        self.world.node.destroy_node()
+        super().close()
         self.writer.close()
 
 

@@ -7,12 +7,12 @@ import pytest
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry as OdometryMessage
 from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from rosgraph_msgs.msg import Clock
 
+from support.spinning import SpunNodes
 from tlcomm_agent.wire import encode_drive
 from tlcomm_core.agent.actions import Drive
 from tlcomm_core.errors import InputError
@@ -31,7 +31,7 @@ def parameters(**values: object) -> list[Parameter]:
     return [Parameter(name, value=value) for name, value in chosen.items()]
 
 
-class Team:
+class Team(SpunNodes):
     """A node that speaks for every agent, beside the sim's."""
 
     def __init__(self, context: Context, **values: object) -> None:
@@ -45,9 +45,7 @@ class Team:
             on_progress=lambda *progress: self.progress.append(progress),
         )
         self.node = Node("test", context=context, use_global_arguments=False)
-        self.executor = SingleThreadedExecutor(context=context)
-        self.executor.add_node(self.sim)
-        self.executor.add_node(self.node)
+        super().__init__(context, self.sim, self.node)
         self.ticks: dict[str, list[msg.Tick]] = {name: [] for name in NAMES}
         self.odometry: dict[str, list[OdometryMessage]] = {name: [] for name in NAMES}
         self.connectivity: list[msg.Connectivity] = []
@@ -104,14 +102,6 @@ class Team:
             self.answer(name, 0)
         self.until(lambda: self.began)
 
-    def until(self, done: Callable[[], bool]) -> None:
-        """Spin both nodes until something holds, at most 10 s."""
-        for _ in range(1000):
-            if done():
-                return
-            self.executor.spin_once(timeout_sec=0.01)
-        raise AssertionError("nothing happened")
-
 
 @pytest.fixture
 def create(context: Context) -> Iterator[Callable[..., Team]]:
@@ -124,9 +114,7 @@ def create(context: Context) -> Iterator[Callable[..., Team]]:
 
     yield make
     for team in teams:
-        team.executor.shutdown()
-        team.sim.destroy_node()
-        team.node.destroy_node()
+        team.close()
 
 
 def test_lock_step_from_begin_to_end(create: Callable[..., Team]) -> None:

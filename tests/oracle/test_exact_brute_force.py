@@ -9,9 +9,9 @@ import pytest
 from tlcomm_core.errors import InfeasibleRoundError
 from tlcomm_core.game.algorithm import solve
 from tlcomm_core.game.best_response import Scope, best_response
-from tlcomm_core.game.connectivity import is_connected
 from tlcomm_core.game.exact import solve_exactly
-from tlcomm_core.game.placement import Neighbourhood, cheapest_placement
+from tlcomm_core.game.links import Links
+from tlcomm_core.game.placement import cheapest_placement
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Profile, RoundProblem
 from tlcomm_core.game.sample import sample_problem
@@ -29,7 +29,7 @@ def least_potential(problem: RoundProblem) -> float:
     least_s = np.inf
     for parts in product(*options):
         locations = tuple(z for z, _ in parts)
-        if is_connected(problem.locations_m[list(locations)], problem.range_m):
+        if problem.links.is_connected(locations):
             strategies = problem.strategies(Profile(locations, tuple(h for _, h in parts)))
             least_s = min(least_s, potential(strategies, opens_s))
     return least_s
@@ -58,8 +58,7 @@ def test_nothing_is_better_than_the_optimum(size: tuple[int, int, int, int], see
     assert optimum.potential_s == potential(strategies, opens_s)
     assert optimum.potential_s == pytest.approx(least_potential(problem), abs=1e-6)
     assert optimum.gap_s <= 1e-6
-    places_m = problem.locations_m[list(optimum.profile.location)]
-    assert is_connected(places_m, problem.range_m)
+    assert problem.links.is_connected(optimum.profile.location)
 
 
 @pytest.mark.parametrize("seed", range(10))
@@ -102,7 +101,7 @@ def test_no_placement_is_cheaper(seed: int) -> None:
     costs = np.where(
         rng.uniform(size=(count, places)) < 0.2, np.inf, rng.normal(size=(count, places))
     )
-    neighbourhood = Neighbourhood.within(locations_m, 1.0)
+    neighbourhood = Links(locations_m, 1.0).neighbourhood
     best = min(
         (
             float(sum(costs[agent, place] for agent, place in enumerate(chosen)))

@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 from tlcomm_core.errors import InfeasibleRoundError
 from tlcomm_core.game.algorithm import Solution, solve
 from tlcomm_core.game.best_response import Scope, best_response
-from tlcomm_core.game.connectivity import is_connected
 from tlcomm_core.game.potential import communication_time, deviation_costs, potential
 from tlcomm_core.game.problem import Choice, Profile, RoundProblem
 from tlcomm_core.game.sample import sample_problem
@@ -70,7 +69,7 @@ def test_every_move_descends_and_stays_admissible(seed: int, team_size: int) -> 
     assert (np.diff(solution.potentials_s) < 0.0).all()
     assert len(solution.profiles) == solution.iterations + 1
     for profile in solution.profiles:
-        assert is_connected(problem.locations_m[list(profile.location)], problem.range_m)
+        assert problem.links.is_connected(profile.location)
         assert opens_s <= communication_time(problem.strategies(profile), opens_s) < closes_s
 
 

@@ -8,12 +8,18 @@ import numpy as np
 import pytest
 
 from support.fake_network import FakeNetwork, Faults
-from support.meetings import SHAPES, Meeting, plant_meeting, sample_meeting
+from support.meetings import SHAPES, Meeting, plant_meeting, reference, sample_meeting
 from tlcomm_core.game.algorithm import solve
-from tlcomm_core.game.potential import evaluate
+from tlcomm_core.game.solver import EXACT
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.protocol.actions import CountIgnored, SendMessage
-from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
+from tlcomm_core.protocol.messages import (
+    BestResponse,
+    Confirmation,
+    Message,
+    PlanOffer,
+    Proposal,
+)
 from tlcomm_core.protocol.negotiation import Phase, _meeting_graph
 
 
@@ -29,18 +35,6 @@ def run(meeting: Meeting, **changes: float) -> FakeNetwork:
     )
     network.run()
     return network
-
-
-def reference(meeting: Meeting) -> TeamStrategy:
-    """Return what Algorithm 1 in one place finds."""
-    problem, solution = meeting.problem, solve(meeting.problem)
-    return evaluate(
-        problem.round,
-        problem.strategies(solution.nash),
-        problem.window_s[0],
-        solution.iterations,
-        solution.potentials_s[0],
-    )
 
 
 def assert_all_agreed(network: FakeNetwork, expected: TeamStrategy) -> None:
@@ -79,6 +73,23 @@ def test_all_agree_on_the_reference(shape: str, count: int) -> None:
         # flood of confirmations; and 1 ns for rounding.
         assert took_s <= (hops + 1 + exchanges + hops) * 0.005 + 1e-9
         assert network.next_s == math.inf
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("count", [1, 2, 5, 7])
+def test_all_agree_on_the_best_proposal(shape: str, count: int, seed: int) -> None:
+    """With a solver that proposes, all hold the optimum and its certificate, in one comparison of
+    proposals and one of best responses.
+    """
+    meeting = sample_meeting(shape, count, seed)
+    meeting = replace(meeting, team=replace(meeting.team, solver=EXACT))
+    network, expected = run(meeting), reference(meeting)
+    assert_all_agreed(network, expected)
+    assert expected.bound_s == pytest.approx(expected.potential_s, abs=1e-6)
+    _, hops = _meeting_graph(meeting.offers, meeting.team)
+    assert set(said_by(network, Proposal).values()) == {hops}
+    assert set(said_by(network, BestResponse).values()) == {hops}
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -151,6 +162,7 @@ def junk(meeting: Meeting, rng: np.random.Generator) -> Message:
     other = meeting.round + int(rng.choice([-1, 1]))
     at = meeting.problem.strategy(0, 0, 0)
     broken = replace(at, agent=member, arrival_s=math.nan)
+    nowhere = replace(at, agent=member, x_m=at.x_m + 1e-3)
     everyone = tuple(members)
     choices: list[Message] = [
         PlanOffer(stranger, meeting.round, everyone, meeting.offers),
@@ -160,6 +172,7 @@ def junk(meeting: Meeting, rng: np.random.Generator) -> Message:
         BestResponse(stranger, meeting.round, 0, 0, stranger, -1e6, replace(at, agent=stranger)),
         BestResponse(member, other, 0, 0, member, -1e6, replace(at, agent=member)),
         BestResponse(member, meeting.round, 0, 0, member, -1e6, broken),
+        BestResponse(member, meeting.round, 0, 0, member, -1e6, nowhere),
         BestResponse(member, meeting.round, 0, 99, member, -1e6, replace(at, agent=member)),
         Confirmation(stranger, meeting.round, 0, 0, everyone),
         Confirmation(member, other, 0, 0, everyone),

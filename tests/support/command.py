@@ -2,8 +2,10 @@
 
 ``CORRIDOR``  a small scenario's file
 ``run``       one command
+``refusal``   what a command that can't be carried out says
 """
 
+import re
 from pathlib import Path
 from typing import Final
 
@@ -11,7 +13,7 @@ import pytest
 
 from tlcomm_tools.cli import main
 
-__all__ = ["CORRIDOR", "run"]
+__all__ = ["CORRIDOR", "refusal", "run"]
 
 CORRIDOR: Final = str(Path(__file__).parents[2] / "scenarios" / "corridor.yaml")
 
@@ -21,3 +23,11 @@ def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, 
     status = main(arguments)
     captured = capsys.readouterr()
     return status, captured.out, captured.err
+
+
+def refusal(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
+    """Run a command of bad usage or input; return its complaint, the only line that it prints."""
+    status, out, err = run(capsys, *arguments)
+    assert (status, out) == (2, "")
+    assert re.fullmatch(r"tlcomm: error: .*\n", err)
+    return err

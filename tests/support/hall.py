@@ -3,6 +3,10 @@
 ``hall``         the scenario
 ``make_member``  one of its members
 ``LoneAgent``    a brain on an ideal vehicle, with whatever it is told
+``under_way``    one on its way
+``two_agents``   two at their first meeting
+``exchange``     what they say to each other there
+``of_kind``      some of an agent's events
 """
 
 from collections.abc import Iterable
@@ -22,7 +26,7 @@ from tlcomm_core.agent.events import MessageHeard, OdometryReceived, TimePassed
 from tlcomm_core.agent.member import Member, create
 from tlcomm_core.geometry import Pose
 from tlcomm_core.planning.plan import LocalPlan
-from tlcomm_core.protocol.messages import Message
+from tlcomm_core.protocol.messages import Message, PlanOffer
 from tlcomm_core.scenario.loader import loads
 from tlcomm_core.scenario.model import Faults
 from tlcomm_core.scenario.site import Site
@@ -30,7 +34,18 @@ from tlcomm_core.units import nanoseconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.world.unicycle import integrate
 
-__all__ = ["DURATION_S", "PERIOD_S", "STARTS", "LoneAgent", "hall", "make_member"]
+__all__ = [
+    "DURATION_S",
+    "PERIOD_S",
+    "STARTS",
+    "LoneAgent",
+    "exchange",
+    "hall",
+    "make_member",
+    "of_kind",
+    "two_agents",
+    "under_way",
+]
 
 PERIOD_S, DURATION_S = 30.0, 3.0
 STARTS = {"one": (2.75, 0.75, 0.0), "two": (3.25, 0.75, 0.0), "three": (3.75, 0.75, 0.0)}
@@ -155,3 +170,40 @@ class LoneAgent:
         )
         actions = self.brain.handle(odometry, self.now_s)
         self.done += [(self.now_s, action) for action in actions]
+
+
+def under_way(time_s: float = 10.0) -> LoneAgent:
+    """Return a team of one on its way."""
+    agent = LoneAgent("one", 1)
+    agent.act()
+    agent.advance_to(time_s)
+    return agent
+
+
+def two_agents() -> tuple[LoneAgent, LoneAgent]:
+    """Return both agents of a team of two, at the meeting of round 0."""
+    one, two = LoneAgent("one", 2), LoneAgent("two", 2)
+    one.act()
+    two.act()
+    return one, two
+
+
+def exchange(one: LoneAgent, two: LoneAgent, time_s: float, *, is_silent: bool = False) -> int:
+    """Let the two talk at a time until nothing new is said; return how much was said.
+
+    With ``is_silent`` the second hears, and is heard with offers only.
+    """
+    marks = [0, 0]
+    one.advance_to(time_s)
+    two.advance_to(time_s)
+    while marks != [len(one.sent), len(two.sent)]:
+        from_one, from_two = one.sent[marks[0] :], two.sent[marks[1] :]
+        marks = [len(one.sent), len(two.sent)]
+        two.hear(from_one)
+        one.hear([m for m in from_two if isinstance(m, PlanOffer) or not is_silent])
+    return sum(marks)
+
+
+def of_kind(events: list[TaskEvent], *kinds: TaskEventKind) -> list[TaskEvent]:
+    """Return the events of some kinds."""
+    return [event for event in events if event.kind in kinds]

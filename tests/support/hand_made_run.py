@@ -293,6 +293,7 @@ class _Messages:
             communication_time=held.communication_s,
             potential=held.potential_s,
             initial_potential=held.initial_potential_s,
+            bound=-math.inf if held.bound_s is None else held.bound_s,
         )
 
     def timing(self, own: RoundTiming) -> bytes:

@@ -8,6 +8,7 @@
 ``SampleRounds``   ``Rounds`` that pose one sample problem
 ``sample_meeting`` a meeting that plans a random feasible round
 ``plant_meeting``  a meeting on a real map, with real offers
+``reference``      what a team must agree on
 """
 
 import math
@@ -21,8 +22,11 @@ from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import InfeasibleRoundError
 from tlcomm_core.game.initial import initial_profile
 from tlcomm_core.game.offer import MemberOffer, PlannedStop
+from tlcomm_core.game.potential import evaluate, potential
 from tlcomm_core.game.problem import RoundProblem
 from tlcomm_core.game.sample import sample_problem
+from tlcomm_core.game.solver import solve_with
+from tlcomm_core.game.strategy import TeamStrategy
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.grid import Grid
@@ -36,6 +40,7 @@ __all__ = [
     "make_team",
     "places",
     "plant_meeting",
+    "reference",
     "sample_meeting",
 ]
 
@@ -207,3 +212,18 @@ def _random_stops(travel: TravelTimes, rng: np.random.Generator) -> tuple[Planne
         finish_s += rng.uniform(6.0, 16.0)
         stops.append(PlannedStop(index, x_m, y_m, 0.0, finish_s))
     return tuple(stops)
+
+
+def reference(meeting: Meeting) -> TeamStrategy:
+    """Return what the team's solver finds in one place."""
+    problem = meeting.problem
+    solved = solve_with(meeting.team.solver, problem)
+    opens_s, _ = problem.window_s
+    return evaluate(
+        problem.round,
+        problem.strategies(solved.solution.nash),
+        opens_s,
+        solved.solution.iterations,
+        potential(problem.strategies(solved.initial), opens_s),
+        solved.bound_s if math.isfinite(solved.bound_s) else None,
+    )

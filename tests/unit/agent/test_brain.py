@@ -5,16 +5,14 @@ from itertools import groupby, pairwise
 
 import pytest
 
-from support.hall import DURATION_S, PERIOD_S, LoneAgent
-from tlcomm_core.agent.actions import CountIgnored, Drive, TaskEvent, TaskEventKind
+from support.hall import DURATION_S, PERIOD_S, LoneAgent, exchange, of_kind, two_agents
+from tlcomm_core.agent.actions import CountIgnored, Drive, TaskEventKind
 from tlcomm_core.agent.events import MessageHeard, TimePassed
-from tlcomm_core.errors import InputError, PlanningError
-from tlcomm_core.geometry import Pose, wrap_angle
+from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.messages import PlanOffer
 from tlcomm_core.protocol.negotiation import Phase
-from tlcomm_core.scenario.model import Faults
 
-STARTED, FINISHED, REACHED, BEGUN, ENDED, SATISFIED, AGREED, FAULT, VISITED, CHANGED = TaskEventKind
+STARTED, FINISHED, REACHED, BEGUN, ENDED, SATISFIED, AGREED, FAULT, VISITED, _ = TaskEventKind
 
 
 @pytest.fixture(scope="module")
@@ -24,11 +22,6 @@ def lone() -> LoneAgent:
     agent.act()
     agent.advance_to(100 * PERIOD_S)
     return agent
-
-
-def of_kind(events: list[TaskEvent], *kinds: TaskEventKind) -> list[TaskEvent]:
-    """Return the events of some kinds."""
-    return [event for event in events if event.kind in kinds]
 
 
 def test_the_first_odometry_finds_it_at_the_meeting_of_round_0() -> None:
@@ -147,30 +140,6 @@ def test_away_from_a_meeting_messages_are_counted() -> None:
     assert agent.brain.next_need_s == need_s
 
 
-def exchange(one: LoneAgent, two: LoneAgent, time_s: float, *, is_silent: bool = False) -> int:
-    """Let the two talk at a time until nothing new is said; return how much was said.
-
-    With ``is_silent`` the second hears, and is heard with offers only.
-    """
-    marks = [0, 0]
-    one.advance_to(time_s)
-    two.advance_to(time_s)
-    while marks != [len(one.sent), len(two.sent)]:
-        from_one, from_two = one.sent[marks[0] :], two.sent[marks[1] :]
-        marks = [len(one.sent), len(two.sent)]
-        two.hear(from_one)
-        one.hear([m for m in from_two if isinstance(m, PlanOffer) or not is_silent])
-    return sum(marks)
-
-
-def two_agents() -> tuple[LoneAgent, LoneAgent]:
-    """Return both agents of a team of two, at the meeting of round 0."""
-    one, two = LoneAgent("one", 2), LoneAgent("two", 2)
-    one.act()
-    two.act()
-    return one, two
-
-
 def test_two_agree_and_leave_together() -> None:
     """They hold the same strategy, and set out D_c after the meeting's beginning."""
     one, two = two_agents()
@@ -242,191 +211,3 @@ def test_what_is_within_tolerance_counts_as_arrived(
     actual = Pose(1.0, 1.0 + off_m, -math.pi + off_rad)
     taken = LoneAgent("one", 1).brain._taken_for(expected, actual)
     assert taken is (expected if is_taken else actual)
-
-
-@pytest.fixture(scope="module", params=[0.3, 1.0])
-def unlucky(request: pytest.FixtureRequest) -> LoneAgent:
-    """Return a team of one whose actions often fail, or always, after forty windows."""
-    agent = LoneAgent("one", 1, Faults(action_failure=request.param))
-    agent.act()
-    agent.advance_to(40 * PERIOD_S)
-    return agent
-
-
-def test_a_failed_attempt_is_reported_and_not_done(unlucky: LoneAgent) -> None:
-    """Each attempt is started, takes its time, and ends either way; failed ones are numbered."""
-    kinds = {STARTED, FINISHED, FAULT}
-    acts = [(t, event) for t, event in unlucky.events if event.kind in kinds]
-    assert len([event for _, event in acts if event.kind is FAULT]) > 20
-    done = -1
-    for (from_s, begun), (to_s, ended) in zip(acts[::2], acts[1::2], strict=False):
-        assert (begun.kind, begun.action) == (STARTED, ended.action)
-        assert to_s - from_s == pytest.approx({"pick": 4.0, "place": 2.0}[begun.action])
-        assert begun.plan_index == ended.plan_index > done
-        if ended.kind is FINISHED:
-            done = ended.plan_index
-        else:
-            assert ended.detail.startswith(f"action={begun.action} attempt=")
-
-
-def test_meetings_are_kept_though_actions_fail(unlucky: LoneAgent) -> None:
-    """The place is reached by t_c as agreed, after step h or fewer."""
-    reached = [(t, e) for t, e in unlucky.events if e.kind is REACHED][1:]
-    assert len(reached) > 35
-    short = 0
-    for (time_s, event), held in zip(reached, unlucky.held, strict=False):
-        assert time_s <= held.strategy.communication_s + 1e-6
-        assert event.plan_index <= held.strategy.strategies[0].task_index
-        short += event.plan_index < held.strategy.strategies[0].task_index
-    assert short > 5
-
-
-def test_steps_go_on_from_the_one_that_failed(unlucky: LoneAgent) -> None:
-    """None is lost or done twice, and the next offer begins with it."""
-    events = of_kind([event for _, event in unlucky.events], FINISHED, VISITED)
-    assert [event.plan_index for event in events] == list(range(len(events)))
-    ends = {FINISHED, VISITED}
-    for message in unlucky.sent:
-        if isinstance(message, PlanOffer):
-            (own,) = message.offers
-            done = sum(t <= own.arrival_s and e.kind in ends for t, e in unlucky.events)
-            assert own.stops[0].task_index == done
-
-
-OTHER_TASK = "G F (b & pick)"
-
-
-def under_way(time_s: float = 10.0) -> LoneAgent:
-    """Return a team of one on its way."""
-    agent = LoneAgent("one", 1)
-    agent.act()
-    agent.advance_to(time_s)
-    return agent
-
-
-@pytest.mark.parametrize("time_s", [0.0, 5.0, 10.0, 14.2, 28.0])
-def test_another_task_begins_at_the_next_meeting(time_s: float) -> None:
-    """Until then all is as agreed; from then on, and in what is offered there, it is the other."""
-    agent = under_way(time_s)
-    old = under_way(10 * PERIOD_S).events
-    plan = agent.change_task(OTHER_TASK)
-    agent.advance_to(10 * PERIOD_S)
-    ((changed_s, change),) = [(t, event) for t, event in agent.events if event.kind is CHANGED]
-    assert change.detail == f"task={OTHER_TASK}"
-    assert changed_s == next(t for t in agent.times_s(REACHED) if t > time_s)
-    assert [e for t, e in agent.events if t < changed_s] == [e for t, e in old if t < changed_s]
-    later = [e for t, e in agent.events if t > changed_s]
-    steps = of_kind(later, FINISHED, VISITED)
-    assert [event.plan_index for event in steps] == list(range(len(steps)))
-    expected = [plan.step(index) for index in range(len(steps))]
-    assert [(e.region, e.action) for e in steps] == [(s.region, s.action or "") for s in expected]
-    assert len(of_kind(later, SATISFIED)) > 5
-    assert len(agent.times_s(BEGUN)) == len([t for t, e in old if e.kind is BEGUN])
-
-
-def test_the_last_of_several_tasks_counts() -> None:
-    """What nobody has begun is forgotten."""
-    agent = under_way()
-    agent.change_task(OTHER_TASK)
-    agent.change_task("G F a")
-    agent.advance_to(2 * PERIOD_S)
-    changes = [event.detail for _, event in agent.events if event.kind is CHANGED]
-    assert changes == ["task=G F a"]
-
-
-@pytest.mark.parametrize(
-    ("task", "error", "reason"),
-    [
-        ("G F (b &", InputError, "task: .*column 9"),
-        ("G F (b & sing)", InputError, "task: unknown region or action 'sing'"),
-        ("F b & G !b", PlanningError, "contradict"),
-        ("G F (a & b)", PlanningError, "can't be done"),
-        ("G F (a & pick) & G !b", PlanningError, "forbids region 'b' always"),
-    ],
-)
-def test_without_a_plan_the_old_task_goes_on(
-    task: str, error: type[Exception], reason: str
-) -> None:
-    """The reason is one line; nothing else is different from not having asked."""
-    agent, other = under_way(), under_way()
-    with pytest.raises(error, match=reason) as caught:
-        agent.change_task(task)
-    assert "\n" not in str(caught.value)
-    agent.advance_to(3 * PERIOD_S)
-    other.advance_to(3 * PERIOD_S)
-    assert agent.done == other.done
-
-
-def test_no_task_is_changed_before_an_agreement() -> None:
-    """Where another plan would begin isn't known then; as soon as it is, it can be asked for."""
-    one, two = two_agents()
-    with pytest.raises(PlanningError, match="isn't agreed on yet"):
-        one.change_task(OTHER_TASK)
-    exchange(one, two, 0.0)
-    one.change_task(OTHER_TASK)
-    fresh = type(one.brain)(one.brain._settings)
-    assert fresh.next_start is None
-
-
-@pytest.mark.parametrize("time_s", [0.0, 4.0, 14.2, 28.0])
-def test_another_plan_starts_where_the_meeting_is(time_s: float) -> None:
-    """As the agent will stand there, yaw included."""
-    agent = under_way(time_s)
-    start = agent.brain.next_start
-    assert start is not None
-    agent.advance_to(next(t for t in under_way(100.0).times_s(REACHED) if t > time_s))
-    assert agent.pose.distance_m(start.x_m, start.y_m) < 1e-6
-    assert wrap_angle(agent.pose.yaw_rad - start.yaw_rad) == pytest.approx(0.0, abs=1e-6)
-
-
-def test_displaced_it_goes_on_from_where_it_is() -> None:
-    """It says by how much, drives to the same target by a way of its own, and loses no step."""
-    agent = under_way(DURATION_S + 3.0)
-    assert agent.velocity.linear_mps > 0.0
-    place = Pose(agent.pose.x_m, agent.pose.y_m + 0.9, 2.0)
-    agent.put(place)
-    agent.act()
-    agent.advance_to(10 * PERIOD_S)
-    ((fault_s, fault),) = [(t, event) for t, event in agent.events if event.kind is FAULT]
-    assert fault_s < DURATION_S + 3.6
-    assert fault.detail == "displaced_m=0.900"
-    assert fault.is_coped_with
-    assert not fault.is_failed_attempt
-    events = of_kind([event for _, event in agent.events], FINISHED, VISITED)
-    assert [event.plan_index for event in events] == list(range(len(events)))
-    assert len(agent.times_s(BEGUN)) == 10
-
-
-def test_what_a_controller_is_off_by_is_no_displacement() -> None:
-    """Up to a cell."""
-    agent = under_way(DURATION_S + 3.0)
-    assert agent.velocity.linear_mps > 0.0
-    agent.put(Pose(agent.pose.x_m, agent.pose.y_m + 0.49, agent.pose.yaw_rad))
-    agent.advance_to(3 * PERIOD_S)
-    assert agent.times_s(FAULT) == []
-
-
-def test_displaced_it_gives_up_a_step_for_the_meeting() -> None:
-    """Carried far away, it goes to meet without having done what it has no time for any more."""
-    agent, other = under_way(DURATION_S), under_way(2 * PERIOD_S)
-    (strategy,) = other.held[0].strategy.strategies
-    away = Pose(0.25, 1.75, 0.0)
-    while agent.now_s < strategy.arrival_s - 3.0:
-        agent.advance_to(agent.now_s + 0.5)
-        if agent.velocity.linear_mps > 0.0:
-            agent.put(away)
-            agent.act()
-    agent.advance_to(2 * PERIOD_S)
-    reached_s, event = [(t, e) for t, e in agent.events if e.kind is REACHED][1]
-    assert event.plan_index < strategy.task_index
-    assert reached_s < other.times_s(BEGUN)[1] + 6.0
-
-
-def test_put_where_no_way_begins_it_keeps_to_its_leg() -> None:
-    """Outside the workspace nothing can be planned; the vehicle is driven back by the old leg."""
-    agent = under_way(DURATION_S + 3.0)
-    agent.put(Pose(agent.pose.x_m, -0.1, agent.pose.yaw_rad))
-    agent.act()
-    assert agent.times_s(FAULT) == []
-    agent.advance_to(10 * PERIOD_S)
-    assert len(agent.times_s(BEGUN)) == 10

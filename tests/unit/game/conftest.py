@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pytest
 
+from tlcomm_core.game.links import Links
 from tlcomm_core.game.problem import Candidates, RoundProblem
 
 Entry = tuple[float, float]
@@ -23,8 +24,7 @@ def make_problem() -> MakeProblem:
         return RoundProblem(
             round=1,
             window_s=(60.0, 120.0),
-            range_m=range_m,
-            locations_m=np.array(locations_m, dtype=np.float64).reshape(-1, 2),
+            links=Links(np.array(locations_m, dtype=np.float64).reshape(-1, 2), range_m),
             candidates=tuple(
                 table_of(agent, rows, len(locations_m)) for agent, rows in tables.items()
             ),

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.game.best_response import (
     CHANGE_TOLERANCE_S,
     Response,
@@ -80,9 +81,16 @@ def test_ties_go_to_the_lowest_place_then_candidate(make_problem: MakeProblem) -
 
 def test_nowhere_to_go_means_staying(make_problem: MakeProblem) -> None:
     """Others that no place can join leave the agent where it is."""
-    problem = make_problem(LINE_M, 1.0, a=detours(5, 0, 0, 0))
-    apart = [other(-50.0), other(50.0)]
+    problem = make_problem([*LINE_M, (50.0, 0.0)], 1.0, a=detours(5, 0, 0, 0, 0))
+    apart = [other(0.0), other(50.0)]
     assert best_response(problem, 0, HERE, apart, Scope.EVERYWHERE) == Response(0.0, 0, 0)
+
+
+def test_another_at_no_location_is_a_mistake(make_problem: MakeProblem) -> None:
+    """Whoever takes strategies from peers has to look at their places first."""
+    problem = make_problem(LINE_M, 1.0, a=detours(5, 0, 0, 0))
+    with pytest.raises(LocalMisuseError, match=r"x_m=0\.5.* is at no location"):
+        best_response(problem, 0, HERE, [other(0.5)], Scope.BALL)
 
 
 def test_only_the_own_candidates_are_read(make_problem: MakeProblem) -> None:

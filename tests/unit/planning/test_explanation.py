@@ -1,12 +1,14 @@
 """Why a plan is optimal, in the small plant."""
 
+import re
 from fractions import Fraction
 
 import pytest
 
 from support.small_plant import SmallPlant
-from tlcomm_core.errors import UnreachableTaskError
+from tlcomm_core.errors import IntractableTaskError, UnreachableTaskError
 from tlcomm_core.ltl import parse
+from tlcomm_core.planning import on_the_fly
 from tlcomm_core.planning.explanation import Move, explain_plan
 from tlcomm_core.planning.lasso import Objective
 from tlcomm_core.planning.relaxation import soft_task
@@ -61,9 +63,19 @@ def test_the_only_suffix_has_no_second_best() -> None:
 
 
 def test_a_task_without_a_plan_has_nothing_to_explain() -> None:
-    """Why there is none is told by planning."""
-    with pytest.raises(UnreachableTaskError, match="has no plan"):
-        explain_plan(parse("G F vault"), SYSTEM)
+    """Why there is none is told as by planning."""
+    task = parse("G F vault")
+    with pytest.raises(UnreachableTaskError, match="'vault' can't be reached") as told:
+        explain_plan(task, SYSTEM)
+    with pytest.raises(UnreachableTaskError, match=re.escape(str(told.value))):
+        plan_task(task, SYSTEM)
+
+
+def test_a_product_too_large_is_not_explained(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nor is it built to see."""
+    monkeypatch.setattr(on_the_fly, "MOST_STATES", 3)
+    with pytest.raises(IntractableTaskError, match="is larger than 3; split the task"):
+        explain_plan(TASK, SYSTEM)
 
 
 def test_rivals_weigh_the_soft_task_too() -> None:

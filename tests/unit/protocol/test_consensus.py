@@ -10,7 +10,7 @@ from support.snapshots import snapshot
 from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.protocol.consensus import MinimumConsensus
-from tlcomm_core.protocol.messages import BestResponse
+from tlcomm_core.protocol.messages import BestResponse, Proposal
 from tlcomm_core.protocol.reception import Reception
 from tlcomm_core.world.radio import diameter, links, neighbours
 
@@ -29,8 +29,8 @@ def said(sender: str, iteration: int, hop: int, change_s: float, by: str = "") -
 @pytest.fixture
 def middle() -> MinimumConsensus:
     """Return agent b of the line a–b–c–d (D = 3), in its first exchange."""
-    consensus = MinimumConsensus("b", 1, ["a", "c"], 3)
-    consensus.begin(-2.0, strategy_of("b"))
+    consensus = MinimumConsensus("b", ["a", "c"], 3)
+    consensus.begin(said("b", 0, 0, -2.0))
     return consensus
 
 
@@ -43,13 +43,13 @@ def test_all_conclude_the_same_minimum(shape: str, count: int) -> None:
     exchanges = max(1, diameter(count, pairs) or 0)
     adjacent = neighbours(count, pairs)
     team = [
-        MinimumConsensus(str(agent), 1, map(str, nodes), exchanges)
+        MinimumConsensus(str(agent), map(str, nodes), exchanges)
         for agent, nodes in enumerate(adjacent)
     ]
     for iteration in range(3):
         changes_s = (-rng.integers(0, 4, count)).tolist()
         said_now = [
-            one.begin(change_s, strategy_of(str(agent)))
+            one.begin(said(str(agent), 0, 0, change_s))
             for agent, (one, change_s) in enumerate(zip(team, changes_s, strict=True))
         ]
         least = min((change_s, str(agent)) for agent, change_s in enumerate(changes_s))
@@ -110,7 +110,7 @@ def test_the_last_two_messages_are_repeated(middle: MinimumConsensus) -> None:
         middle.hear(said("c", 0, hop, -1.0, by="c"))
         middle.advance()
     assert [message.hop for message in middle.unsuperseded] == [1, 2]
-    middle.begin(0.0, strategy_of("b"))
+    middle.begin(said("b", 0, 0, 0.0))
     assert [(m.iteration, m.hop) for m in middle.unsuperseded] == [(0, 2), (1, 0)]
 
 
@@ -158,14 +158,41 @@ def test_an_own_response_that_returns_is_accepted(middle: MinimumConsensus) -> N
 def test_an_iteration_begins_after_the_last_exchange_only(middle: MinimumConsensus) -> None:
     """To begin one in the middle of another is a bug of ours."""
     with pytest.raises(LocalMisuseError, match="step 0"):
-        middle.begin(0.0, strategy_of("b"))
+        middle.begin(said("b", 0, 0, 0.0))
 
 
 def test_before_the_first_iteration_there_is_none() -> None:
     """Nothing is under way, concluded or to be repeated."""
-    consensus = MinimumConsensus("b", 1, ["a"], 2)
+    consensus = MinimumConsensus("b", ["a"], 2)
     assert consensus.iteration == -1
     assert consensus.conclusion is None
     assert consensus.unsuperseded == ()
-    consensus.begin(0.0, strategy_of("b"))
+    consensus.begin(said("b", 0, 0, 0.0))
     assert consensus.iteration == 0
+
+
+def proposed(sender: str, hop: int, potential_s: float, bound_s: float, by: str = "") -> Proposal:
+    """Return a proposal of round 1."""
+    candidate = by or sender
+    strategies = (strategy_of(candidate),)
+    return Proposal(sender, 1, 0, hop, candidate, potential_s, bound_s, strategies)
+
+
+def test_of_proposals_the_least_potential_wins_and_every_bound_counts() -> None:
+    """What is told on is the best proposal, with the lowest of all bounds heard of."""
+    consensus = MinimumConsensus("b", ["a", "c"], 2)
+    consensus.begin(proposed("b", 0, 5.0, 4.0))
+    consensus.hear(proposed("a", 0, 4.5, 4.5))
+    consensus.hear(proposed("c", 0, 6.0, 3.5))
+    assert consensus.advance() == proposed("b", 1, 4.5, 3.5, by="a")
+    assert consensus.hear(proposed("a", 1, 4.5, 3.0, by="a")) is Reception.ACCEPTED
+    assert consensus.hear(proposed("c", 1, 5.0, 2.0, by="b")) is Reception.ACCEPTED
+    assert consensus.conclusion == proposed("b", 1, 4.5, 2.0, by="a")
+
+
+def test_a_proposal_of_ones_own_that_returns_changed_is_refused() -> None:
+    """Its bound may have fallen on the way, its potential may not have."""
+    consensus = MinimumConsensus("b", ["a"], 2)
+    consensus.begin(proposed("b", 0, 5.0, 4.0))
+    assert consensus.hear(proposed("a", 1, 5.0, 1.0, by="b")) is Reception.ACCEPTED
+    assert consensus.hear(proposed("a", 1, 4.0, 1.0, by="b")) is Reception.CONFLICTING

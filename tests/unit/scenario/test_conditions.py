@@ -2,39 +2,25 @@
 
 import pytest
 
+from support.good_scenario import GOOD
 from tlcomm_core.errors import ScenarioError
 from tlcomm_core.scenario.conditions import MAX_PAIRS
 from tlcomm_core.scenario.loader import dumps, loads
 
-GOOD = """\
-name: small
-workspace:
-  size_m: [4.0, 4.0]
-  cell_m: 0.5
-  regions:
-    a: {at_m: [0.25, 0.25], radius_m: 0.5}
-    b: {at_m: [2.25, 3.25], radius_m: 0.5}
-communication: {range_m: 1.0, period_s: 60.0, duration_s: 5.0}
-motion: {linear_mps: 1.0, angular_radps: 1.5}
+CONDITIONAL = GOOD.replace(
+    "actions: {pick: 4.0}\n",
+    """\
 actions:
   pick: 4.0
   weigh: {duration_s: 1.0, after: [pick]}
   drop: {duration_s: 2, at: [a, b], after: [pick, weigh]}
-agents:
-  one:
-    start: [0.25, 0.75, 0.0]
-    task: "G F (a & pick)"
-  two:
-    start: [0.75, 0.75, 0]
-    task: "G F b"
-    motion: {linear_mps: 0.5}
-    actions: {pick: 1.0, drop: 2}
-"""
+""",
+)
 
 
 def test_an_action_may_need_a_region_or_others_first() -> None:
     """A number is a duration; an agent's own actions replace the team's whole."""
-    scenario = loads(GOOD)
+    scenario = loads(CONDITIONAL)
     assert scenario.actions_of("one") == {"pick": 4.0, "weigh": 1.0, "drop": 2.0}
     assert scenario.actions_of("two") == {"pick": 1.0, "weigh": 1.0, "drop": 2.0}
     conditional = scenario.conditional_actions_of("one")
@@ -48,23 +34,23 @@ def test_an_action_may_need_a_region_or_others_first() -> None:
 @pytest.mark.parametrize(
     ("old", "new", "line", "message"),
     [
-        ("at: [a, b]", "at: [a, c]", 13, "actions.drop.at[1]: unknown region 'c'; expected one of"),
-        ("[pick, weigh]", "[pick, weihg]", 13,
+        ("at: [a, b]", "at: [a, c]", 16, "actions.drop.at[1]: unknown region 'c'; expected one of"),
+        ("[pick, weigh]", "[pick, weihg]", 16,
          "actions.drop.after[1]: unknown action 'weihg'; did you mean 'weigh'?"),
-        ("after: [pick]", "after: [drop]", 12,
+        ("after: [pick]", "after: [drop]", 15,
          "actions.weigh.after: 'weigh' after 'drop' after 'weigh': none of them can ever be"),
-        ("after: [pick]", "after: [weigh]", 12, "actions.weigh.after: 'weigh' after 'weigh': none"),
-        ("drop: 2}", "drop: {duration_s: 1, after: [pikc]}}", 22,
+        ("after: [pick]", "after: [weigh]", 15, "actions.weigh.after: 'weigh' after 'weigh': none"),
+        ("drop: 2}", "drop: {duration_s: 1, after: [pikc]}}", 25,
          "agents.two.actions.drop.after[0]: unknown action 'pikc'; did you mean 'pick'?"),
-        ("{pick: 1.0, drop: 2}", "{pick: {duration_s: 1, after: [weigh]}}", 22,
+        ("{pick: 1.0, drop: 2}", "{pick: {duration_s: 1, after: [weigh]}}", 25,
          "agents.two.actions.pick.after: 'pick' after 'weigh' after 'pick'"),
-        ("duration_s: 2,", "duration_s: -2,", 13, "actions.drop.duration_s: found -2"),
-        ("duration_s: 2,", "", 13, "actions.drop.duration_s: missing"),
-        ("after: [pick]", "afer: [pick]", 12,
+        ("duration_s: 2,", "duration_s: -2,", 16, "actions.drop.duration_s: found -2"),
+        ("duration_s: 2,", "", 16, "actions.drop.duration_s: missing"),
+        ("after: [pick]", "afer: [pick]", 15,
          "actions.weigh.afer: unknown field; did you mean 'after'?"),
-        ("at: [a, b]", "at: []", 13, "actions.drop.at: found []; expected at least 1 items"),
-        ("pick: 4.0\n", "pick: soon\n", 11, "actions.pick: found 'soon'; expected a valid number"),
-        ("weigh: {duration_s: 1.0,", "weigh: {duration_s: 1.0, at: a,", 12,
+        ("at: [a, b]", "at: []", 16, "actions.drop.at: found []; expected at least 1 items"),
+        ("pick: 4.0\n", "pick: soon\n", 14, "actions.pick: found 'soon'; expected a valid number"),
+        ("weigh: {duration_s: 1.0,", "weigh: {duration_s: 1.0, at: a,", 15,
          "actions.weigh.at: found 'a'"),
     ],
 )  # fmt: skip
@@ -72,16 +58,18 @@ def test_conditions_that_make_no_sense_are_refused(
     old: str, new: str, line: int, message: str
 ) -> None:
     """Unknown names, circles and wrong fields, each in its place."""
-    assert GOOD.count(old) == 1
+    assert CONDITIONAL.count(old) == 1
     with pytest.raises(ScenarioError) as failure:
-        loads(GOOD.replace(old, new))
+        loads(CONDITIONAL.replace(old, new))
     assert str(failure.value).startswith(f"scenario:{line}: {message}")
 
 
 def test_an_agent_can_only_remember_so_much() -> None:
     """Each pair of an action and one before it doubles the states of its plan."""
     names = [f"a{number}" for number in range(MAX_PAIRS + 1)]
-    text = GOOD.replace("  pick: 4.0\n", "".join(f"  {name}: 1.0\n" for name in [*names, "pick"]))
+    text = CONDITIONAL.replace(
+        "  pick: 4.0\n", "".join(f"  {name}: 1.0\n" for name in [*names, "pick"])
+    )
     few = text.replace("after: [pick]", f"after: [{', '.join(names[:6])}]")
     assert len(loads(few).conditional_actions_of("one")["weigh"].after) == 6
     many = text.replace("after: [pick]", f"after: [{', '.join(names[:7])}]")

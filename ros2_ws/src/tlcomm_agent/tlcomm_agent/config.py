@@ -1,18 +1,26 @@
 """An agent node's parameters, validated.
 
+``PARAMETERS``   what they are, with their defaults
 ``AgentConfig``  who an agent is and how it is paced
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Self
+from types import MappingProxyType
+from typing import Final, Self
 
 from tlcomm_core.errors import InputError
+from tlcomm_core.game.solver import DEFAULT, SOLVERS, Solver
 from tlcomm_core.pace import Pace, parse_pace
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.model import Scenario
 
-__all__ = ["AgentConfig"]
+__all__ = ["PARAMETERS", "AgentConfig"]
+
+PARAMETERS: Final[Mapping[str, object]] = MappingProxyType(
+    {"scenario": "", "pace": "lockstep", "seed": 0, "solver": DEFAULT.name, "recorder": False}
+)
+"""The node's parameters and their defaults."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +32,7 @@ class AgentConfig:
         scenario: all that the team knows from the start.
         pace: lock step, or the clock runs by itself.
         seed: of what befalls it.
+        solver: how its team finds the next meetings.
         has_recorder: whether to wait for a recorder before saying that it is ready.
     """
 
@@ -31,6 +40,7 @@ class AgentConfig:
     scenario: Scenario
     pace: Pace
     seed: int
+    solver: Solver
     has_recorder: bool
 
     @classmethod
@@ -53,7 +63,12 @@ class AgentConfig:
         seed = get("seed")
         if not (isinstance(seed, int) and seed >= 0):
             raise InputError(f"seed: {seed!r} isn't an integer ≥ 0")
-        return cls(name, scenario, parse_pace(str(get("pace"))), seed, bool(get("recorder")))
+        solver = SOLVERS.get(str(get("solver")))
+        if solver is None:
+            raise InputError(f"solver: {get('solver')!r} isn't one of {', '.join(SOLVERS)}")
+        solver.check_team(len(scenario.agents))
+        pace = parse_pace(str(get("pace")))
+        return cls(name, scenario, pace, seed, solver, bool(get("recorder")))
 
     @property
     def others(self) -> tuple[str, ...]:

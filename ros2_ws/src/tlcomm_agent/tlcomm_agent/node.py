@@ -25,7 +25,8 @@ from rclpy.serialization import deserialize_message
 
 from tlcomm_agent import tasking, wire
 from tlcomm_agent.arrivals import Arrivals
-from tlcomm_agent.config import AgentConfig
+from tlcomm_agent.config import PARAMETERS, AgentConfig
+from tlcomm_agent.wire_fields import WireError
 from tlcomm_core.agent import actions
 from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
 from tlcomm_core.agent.member import create
@@ -87,7 +88,7 @@ class AgentNode(Node):
         context: Context | None = None,
         on_ready: Callable[[], None] = lambda: None,
     ) -> None:
-        """Read the parameters ``scenario``, ``pace``, ``seed`` and ``recorder``; plan.
+        """Read the parameters ``scenario``, ``pace``, ``seed``, ``solver`` and ``recorder``; plan.
 
         Args:
             namespace: the agent's name, unless the command line says it.
@@ -118,7 +119,8 @@ class AgentNode(Node):
         pacing = Pacing.EVENT if self._is_lockstep else Pacing.PERIODIC
         site = Site.from_scenario(self.config.scenario)
         atlas = Atlas(site.grid, site.region_discs)
-        self._member: Final = create(self.config.name, site, pacing, atlas, self.config.seed)
+        config = self.config
+        self._member: Final = create(config.name, site, pacing, atlas, config.seed, config.solver)
         self._timed: Final = TimedMember(self._member, time.thread_time, time.time)
         self._taken: Final[Counter[str]] = Counter()
         latency_s = self.config.scenario.communication.hop_latency_s
@@ -135,9 +137,8 @@ class AgentNode(Node):
         self._create_occasions()
 
     def _declared(self, name: str) -> object:
-        defaults = {"scenario": "", "pace": "lockstep", "seed": 0, "recorder": False}
         descriptor = ParameterDescriptor(dynamic_typing=True)
-        return self.declare_parameter(name, defaults[name], descriptor).value
+        return self.declare_parameter(name, PARAMETERS[name], descriptor).value
 
     def _create_publishers(self) -> None:
         create = self.create_publisher
@@ -203,7 +204,7 @@ class AgentNode(Node):
             self._taken[topic] += 1
             try:
                 see(message)
-            except wire.WireError as error:
+            except WireError as error:
                 self._ignore(f"{topic}: {error}")
             self._proceed()
 
@@ -241,7 +242,7 @@ class AgentNode(Node):
         """
         try:
             message, sent_ns = wire.decode_message(deserialize_message(data, kind))
-        except wire.WireError as error:
+        except WireError as error:
             self._ignore(f"{other}: {error}")
             return 0
         except RuntimeError as error:  # rclpy's RMWError, which has no public name

@@ -8,26 +8,40 @@
 ``encode_drive``, ``encode_task_event``, ``encode_team_strategy``, ``encode_round_timing``
 ``decode_odometry``    where the agent is
 ``decode_neighbours``  who is in range of one agent, of ``Connectivity``
-``WireError``          why a message is refused
 """
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Any, Final, TypeVar
+from typing import Any, Final
 
-from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point, TwistStamped
-from std_msgs.msg import Header
 
+from tlcomm_agent.wire_fields import (
+    MAX_AGENTS,
+    WireError,
+    bound,
+    bounded,
+    decode_stamp,
+    finite,
+    header,
+    name,
+    names,
+    time,
+)
 from tlcomm_core.agent.actions import Drive, ReportTask, TaskEvent
 from tlcomm_core.agent.timing import RoundTiming
-from tlcomm_core.errors import TlcommError
 from tlcomm_core.game.offer import MAX_STOPS, MemberOffer, PlannedStop
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose, yaw_from_quaternion
 from tlcomm_core.protocol.actions import HoldStrategy, SendMessage
-from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
+from tlcomm_core.protocol.messages import (
+    BestResponse,
+    Confirmation,
+    Message,
+    PlanOffer,
+    Proposal,
+)
 from tlcomm_core.units import NANOSECONDS_PER_SECOND
 from tlcomm_core.world.observation import Odometry
 from tlcomm_msgs import msg
@@ -36,7 +50,6 @@ __all__ = [
     "TEAM_TYPES",
     "TYPES",
     "PublishedAction",
-    "WireError",
     "decode_message",
     "decode_neighbours",
     "decode_odometry",
@@ -51,6 +64,7 @@ __all__ = [
 TEAM_TYPES: Final[Mapping[str, Any]] = MappingProxyType(
     {
         "plan_offer": msg.PlanOffer,
+        "proposal": msg.Proposal,
         "best_response": msg.BestResponse,
         "confirmation": msg.Confirmation,
     }
@@ -69,19 +83,16 @@ TYPES: Final[Mapping[str, Any]] = MappingProxyType(
 PublishedAction = Drive | SendMessage | ReportTask | HoldStrategy
 
 _TEAM_TOPICS: Final[Mapping[type[Message], str]] = MappingProxyType(
-    {PlanOffer: "plan_offer", BestResponse: "best_response", Confirmation: "confirmation"}
+    {
+        PlanOffer: "plan_offer",
+        Proposal: "proposal",
+        BestResponse: "best_response",
+        Confirmation: "confirmation",
+    }
 )
-_FRAME: Final = "map"
-_MAX_AGENTS: Final = 1000
-_MAX_NAME: Final = 255
 
 # Generated messages are opaque: what matters is checked here, field by field.
 _RosMessage = Any
-_Items = TypeVar("_Items", bound=Collection[Any])
-
-
-class WireError(TlcommError):
-    """A message from outside that can't be used; the text says which field and why."""
 
 
 def encode_action(action: PublishedAction, agent: str, stamp_ns: int) -> tuple[str, _RosMessage]:
@@ -107,15 +118,27 @@ def encode_message(message: Message, stamp_ns: int) -> _RosMessage:
     match message:
         case PlanOffer():
             return msg.PlanOffer(
-                header=_header(stamp_ns),
+                header=header(stamp_ns),
                 sender=message.sender,
                 round=message.round,
                 known=list(message.known),
                 offers=[_encode_offer(offer) for offer in message.offers],
             )
+        case Proposal():
+            return msg.Proposal(
+                header=header(stamp_ns),
+                sender=message.sender,
+                round=message.round,
+                iteration=message.iteration,
+                hop=message.hop,
+                candidate=message.candidate,
+                potential=message.potential_s,
+                bound=message.bound_s,
+                strategies=[_encode_strategy(own) for own in message.strategies],
+            )
         case BestResponse():
             return msg.BestResponse(
-                header=_header(stamp_ns),
+                header=header(stamp_ns),
                 sender=message.sender,
                 round=message.round,
                 iteration=message.iteration,
@@ -126,7 +149,7 @@ def encode_message(message: Message, stamp_ns: int) -> _RosMessage:
             )
         case Confirmation():
             return msg.Confirmation(
-                header=_header(stamp_ns),
+                header=header(stamp_ns),
                 sender=message.sender,
                 round=message.round,
                 iteration=message.iteration,
@@ -144,17 +167,30 @@ def decode_message(message: _RosMessage) -> tuple[Message, int]:
     Raises:
         WireError: a field is out of its range.
     """
-    sent_ns = _decode_stamp(message.header.stamp)
-    sender = _name(message.sender, "sender")
+    sent_ns = decode_stamp(message.header.stamp)
+    sender = name(message.sender, "sender")
     match message:
         case msg.PlanOffer():
             return PlanOffer(
                 sender=sender,
                 round=message.round,
-                known=_names(message.known, "known"),
+                known=names(message.known, "known"),
                 offers=tuple(
-                    _decode_offer(offer)
-                    for offer in _bounded(message.offers, _MAX_AGENTS, "offers")
+                    _decode_offer(offer) for offer in bounded(message.offers, MAX_AGENTS, "offers")
+                ),
+            ), sent_ns
+        case msg.Proposal():
+            return Proposal(
+                sender=sender,
+                round=message.round,
+                iteration=message.iteration,
+                hop=message.hop,
+                candidate=name(message.candidate, "candidate"),
+                potential_s=finite(message.potential, "potential"),
+                bound_s=bound(message.bound),
+                strategies=tuple(
+                    _decode_strategy(own)
+                    for own in bounded(message.strategies, MAX_AGENTS, "strategies")
                 ),
             ), sent_ns
         case msg.BestResponse():
@@ -163,8 +199,8 @@ def decode_message(message: _RosMessage) -> tuple[Message, int]:
                 round=message.round,
                 iteration=message.iteration,
                 hop=message.hop,
-                candidate=_name(message.candidate, "candidate"),
-                change_s=_finite(message.change, "change"),
+                candidate=name(message.candidate, "candidate"),
+                change_s=finite(message.change, "change"),
                 strategy=_decode_strategy(message.strategy),
             ), sent_ns
         case msg.Confirmation():
@@ -173,7 +209,7 @@ def decode_message(message: _RosMessage) -> tuple[Message, int]:
                 round=message.round,
                 iteration=message.iteration,
                 digest=message.digest,
-                confirmed=_names(message.confirmed, "confirmed"),
+                confirmed=names(message.confirmed, "confirmed"),
             ), sent_ns
         case _:
             raise WireError(f"type {type(message).__name__!r} isn't one that agents talk in")
@@ -181,7 +217,7 @@ def decode_message(message: _RosMessage) -> tuple[Message, int]:
 
 def encode_drive(drive: Drive, agent: str, stamp_ns: int) -> TwistStamped:
     """Return a velocity command, in the frame that moves in the agent's odometry."""
-    message = TwistStamped(header=_header(stamp_ns, f"{agent}/base_link"))
+    message = TwistStamped(header=header(stamp_ns, f"{agent}/base_link"))
     message.twist.linear.x = drive.linear_mps
     message.twist.angular.z = drive.angular_radps
     return message
@@ -190,7 +226,7 @@ def encode_drive(drive: Drive, agent: str, stamp_ns: int) -> TwistStamped:
 def encode_task_event(event: TaskEvent, agent: str, stamp_ns: int) -> _RosMessage:
     """Return what an agent did."""
     return msg.TaskEvent(
-        header=_header(stamp_ns),
+        header=header(stamp_ns),
         agent=agent,
         kind=int(event.kind),
         region=event.region,
@@ -204,25 +240,26 @@ def encode_task_event(event: TaskEvent, agent: str, stamp_ns: int) -> _RosMessag
 def encode_team_strategy(strategy: TeamStrategy, stamp_ns: int) -> _RosMessage:
     """Return the strategy that an agent holds as agreed."""
     return msg.TeamStrategy(
-        header=_header(stamp_ns),
+        header=header(stamp_ns),
         round=strategy.round,
         iteration=strategy.iteration,
         strategies=[_encode_strategy(own) for own in strategy.strategies],
         communication_time=strategy.communication_s,
         potential=strategy.potential_s,
         initial_potential=strategy.initial_potential_s,
+        bound=-math.inf if strategy.bound_s is None else strategy.bound_s,
     )
 
 
 def encode_round_timing(timing: RoundTiming, stamp_ns: int) -> _RosMessage:
     """Return what agreeing took; wall times to the nanosecond, finer than today's floats are."""
     return msg.RoundTiming(
-        header=_header(stamp_ns),
+        header=header(stamp_ns),
         agent=timing.agent,
         round=timing.round,
         solve_wall=timing.solve_wall_s,
-        offered_at=_time(_wall_ns(timing.offered_wall_s)),
-        agreed_at=_time(_wall_ns(timing.agreed_wall_s)),
+        offered_at=time(_wall_ns(timing.offered_wall_s)),
+        agreed_at=time(_wall_ns(timing.agreed_wall_s)),
     )
 
 
@@ -235,15 +272,15 @@ def decode_odometry(message: _RosMessage, agent: str) -> Odometry:
     place, turn = message.pose.pose.position, message.pose.pose.orientation
     twist = message.twist.twist
     return Odometry(
-        stamp_ns=_decode_stamp(message.header.stamp),
+        stamp_ns=decode_stamp(message.header.stamp),
         agent=agent,
         pose=Pose(
-            _finite(place.x, "position.x"),
-            _finite(place.y, "position.y"),
-            yaw_from_quaternion(_finite(turn.z, "orientation.z"), _finite(turn.w, "orientation.w")),
+            finite(place.x, "position.x"),
+            finite(place.y, "position.y"),
+            yaw_from_quaternion(finite(turn.z, "orientation.z"), finite(turn.w, "orientation.w")),
         ),
-        linear_mps=_finite(twist.linear.x, "linear.x"),
-        angular_radps=_finite(twist.angular.z, "angular.z"),
+        linear_mps=finite(twist.linear.x, "linear.x"),
+        angular_radps=finite(twist.angular.z, "angular.z"),
     )
 
 
@@ -253,15 +290,15 @@ def decode_neighbours(message: _RosMessage, agent: str) -> tuple[frozenset[str],
     Raises:
         WireError: the agent isn't listed, or an edge leads nowhere.
     """
-    names, ends = _names(message.agents, "agents"), message.edges
-    if agent not in names:
-        raise WireError(f"agents: {agent!r} isn't among {len(names)} names")
-    if len(ends) % 2 or any(end >= len(names) for end in ends):
-        raise WireError(f"edges: not pairs of indices below {len(names)}")
-    own = names.index(agent)
+    agents, ends = names(message.agents, "agents"), message.edges
+    if agent not in agents:
+        raise WireError(f"agents: {agent!r} isn't among {len(agents)} names")
+    if len(ends) % 2 or any(end >= len(agents) for end in ends):
+        raise WireError(f"edges: not pairs of indices below {len(agents)}")
+    own = agents.index(agent)
     pairs = list(zip(ends[::2], ends[1::2], strict=True))
     indices = {j for i, j in pairs if i == own} | {i for i, j in pairs if j == own}
-    return frozenset(names[index] for index in indices), _decode_stamp(message.header.stamp)
+    return frozenset(agents[index] for index in indices), decode_stamp(message.header.stamp)
 
 
 def _encode_offer(offer: MemberOffer) -> _RosMessage:
@@ -284,21 +321,21 @@ def _encode_offer(offer: MemberOffer) -> _RosMessage:
 
 def _decode_offer(offer: _RosMessage) -> MemberOffer:
     return MemberOffer(
-        agent=_name(offer.agent, "offers.agent"),
-        arrival_s=_finite(offer.arrival_time, "offers.arrival_time"),
-        x_m=_finite(offer.position.x, "offers.position.x"),
-        y_m=_finite(offer.position.y, "offers.position.y"),
-        yaw_rad=_finite(offer.heading, "offers.heading"),
-        linear_mps=_finite(offer.linear_speed, "offers.linear_speed"),
-        angular_radps=_finite(offer.angular_speed, "offers.angular_speed"),
+        agent=name(offer.agent, "offers.agent"),
+        arrival_s=finite(offer.arrival_time, "offers.arrival_time"),
+        x_m=finite(offer.position.x, "offers.position.x"),
+        y_m=finite(offer.position.y, "offers.position.y"),
+        yaw_rad=finite(offer.heading, "offers.heading"),
+        linear_mps=finite(offer.linear_speed, "offers.linear_speed"),
+        angular_radps=finite(offer.angular_speed, "offers.angular_speed"),
         stops=_decode_stops(offer),
-        avoided=_names(offer.forbidden, "offers.forbidden"),
+        avoided=names(offer.forbidden, "offers.forbidden"),
     )
 
 
 def _decode_stops(offer: _RosMessage) -> tuple[PlannedStop, ...]:
     columns = (
-        _bounded(offer.task_index, MAX_STOPS, "offers.task_index"),
+        bounded(offer.task_index, MAX_STOPS, "offers.task_index"),
         offer.stop_x,
         offer.stop_y,
         offer.stop_heading,
@@ -323,52 +360,15 @@ def _encode_strategy(strategy: Strategy) -> _RosMessage:
 
 def _decode_strategy(strategy: _RosMessage) -> Strategy:
     return Strategy(
-        agent=_name(strategy.agent, "strategy.agent"),
-        x_m=_finite(strategy.location.x, "strategy.location.x"),
-        y_m=_finite(strategy.location.y, "strategy.location.y"),
+        agent=name(strategy.agent, "strategy.agent"),
+        x_m=finite(strategy.location.x, "strategy.location.x"),
+        y_m=finite(strategy.location.y, "strategy.location.y"),
         task_index=strategy.task_index,
-        arrival_s=_finite(strategy.arrival_time, "strategy.arrival_time"),
-        extra_travel_s=_finite(strategy.extra_travel, "strategy.extra_travel"),
+        arrival_s=finite(strategy.arrival_time, "strategy.arrival_time"),
+        extra_travel_s=finite(strategy.extra_travel, "strategy.extra_travel"),
     )
-
-
-def _header(stamp_ns: int, frame: str = _FRAME) -> Header:
-    return Header(stamp=_time(stamp_ns), frame_id=frame)
-
-
-def _time(stamp_ns: int) -> Time:
-    sec, nanosec = divmod(stamp_ns, NANOSECONDS_PER_SECOND)
-    return Time(sec=sec, nanosec=nanosec)
-
-
-def _decode_stamp(stamp: Time) -> int:
-    if stamp.sec < 0 or stamp.nanosec >= NANOSECONDS_PER_SECOND:
-        raise WireError(f"stamp: {stamp.sec} s and {stamp.nanosec} ns is no time of a run")
-    return int(stamp.sec) * NANOSECONDS_PER_SECOND + int(stamp.nanosec)
 
 
 def _wall_ns(time_s: float) -> int:
     whole_s = int(time_s)
     return whole_s * NANOSECONDS_PER_SECOND + round((time_s - whole_s) * NANOSECONDS_PER_SECOND)
-
-
-def _finite(value: float, field: str) -> float:
-    if not math.isfinite(value):
-        raise WireError(f"{field}: {value!r} isn't finite")
-    return value
-
-
-def _name(value: str, field: str) -> str:
-    if not 0 < len(value) <= _MAX_NAME:
-        raise WireError(f"{field}: a name has 1 to {_MAX_NAME} characters, not {len(value)}")
-    return value
-
-
-def _names(values: Collection[str], field: str) -> tuple[str, ...]:
-    return tuple(_name(value, field) for value in _bounded(values, _MAX_AGENTS, field))
-
-
-def _bounded(values: _Items, most: int, field: str) -> _Items:
-    if len(values) > most:
-        raise WireError(f"{field}: {len(values)} are more than {most}")
-    return values

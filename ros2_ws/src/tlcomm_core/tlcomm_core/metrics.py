@@ -185,6 +185,7 @@ def _round(
         "planned_t_c": strategy.communication_s,
         "initial_potential": strategy.initial_potential_s,
         "potential": strategy.potential_s,
+        "bound": strategy.bound_s,
         "iterations": strategy.iteration,
         "solve_wall_s": max((timing.solve_wall_s for timing in timings), default=None),
         "coordination_wall_s": _coordination_wall_s(timings, len(scenario.agents)),

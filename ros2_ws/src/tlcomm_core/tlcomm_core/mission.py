@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tlcomm_core.game.solver import DEFAULT, Solver
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.world.lockstep import StopRule
@@ -25,12 +26,14 @@ class Mission:
         seed: of all that is random.
         rounds: the run ends D_c after the meeting of this round; or ``None``.
         until_s: the run ends at this simulated time; or ``None``.
+        solver: of the rounds.
     """
 
     site: Site
     seed: int
     rounds: int | None
     until_s: float | None
+    solver: Solver = DEFAULT
 
     @property
     def stop(self) -> StopRule:

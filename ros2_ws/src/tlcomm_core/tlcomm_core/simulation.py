@@ -87,7 +87,7 @@ class _Harness:
         self.left = Simulated(RunRecords(messages_sent=dict.fromkeys(scenario.agents, 0)))
         atlas = Atlas(mission.site.grid, mission.site.region_discs)
         self._members: dict[str, Member] = {
-            name: create(name, mission.site, Pacing.EVENT, atlas, mission.seed)
+            name: create(name, mission.site, Pacing.EVENT, atlas, mission.seed, mission.solver)
             for name in scenario.agents
         }
         self._timed = {

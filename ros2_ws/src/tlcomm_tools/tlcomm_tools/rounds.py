@@ -7,6 +7,7 @@ from tlcomm_core.agent.member import team_of
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import InputError
 from tlcomm_core.game.problem import RoundProblem
+from tlcomm_core.game.solver import DEFAULT, Solver
 from tlcomm_core.mission import Mission
 from tlcomm_core.protocol.messages import Message, PlanOffer
 from tlcomm_core.scenario.site import Site
@@ -17,13 +18,14 @@ from tlcomm_tools.limit import time_limit_s
 __all__ = ["pose_round"]
 
 
-def pose_round(site: Site, number: int, seed: int) -> RoundProblem:
+def pose_round(site: Site, number: int, seed: int, solver: Solver = DEFAULT) -> RoundProblem:
     """Return the problem of a round from what the agents offer at the meeting before it.
 
     Args:
         site: the scenario.
         number: the round, from 1 on.
         seed: of all that is random until then.
+        solver: of the rounds until then.
 
     Raises:
         InputError: the team doesn't get so far.
@@ -38,7 +40,7 @@ def pose_round(site: Site, number: int, seed: int) -> RoundProblem:
             heard.append(message)
 
     limit_s = time_limit_s(site.scenario, number - 1, None)
-    simulate(Mission(site, seed, number - 1, limit_s), on_message=listen)
+    simulate(Mission(site, seed, number - 1, limit_s, solver), on_message=listen)
     offers = {offer.agent: offer for message in heard for offer in message.offers}
     absent = [name for name in site.scenario.agents if name not in offers]
     if absent:

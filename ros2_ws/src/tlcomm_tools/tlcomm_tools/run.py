@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, assert_never
 
 from tlcomm_core.errors import InputError
+from tlcomm_core.game.solver import Solver
 from tlcomm_core.metrics import RunFacts, result_document
 from tlcomm_core.pace import Pace
 from tlcomm_core.records import RunRecords
@@ -57,7 +58,7 @@ class RunOptions:
 
     scenario: Scenario
     method: str
-    solver: str
+    solver: Solver
     seed: int
     pace: Pace
     rounds: int | None
@@ -130,7 +131,10 @@ def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
     return [
         spec("recorder", "recorder", *bag, *scenario, stop_last=True),
         spec("sim", "sim", *common, *end),
-        *(spec(name, "agent", "--name", name, *common) for name in options.scenario.agents),
+        *(
+            spec(name, "agent", "--name", name, "--solver", options.solver.name, *common)
+            for name in options.scenario.agents
+        ),
     ]
 
 
@@ -141,7 +145,7 @@ def _report(
     failure = outcome if isinstance(outcome, RunFailed) else None
     facts = RunFacts(
         method=options.method,
-        solver=options.solver,
+        solver=options.solver.name,
         seed=options.seed,
         pace="lockstep" if options.pace.factor is None else options.pace.factor,
         sim_s=_simulated_s(recorded, outcome, last),

@@ -7,6 +7,7 @@
 They need no ROS.
 """
 
+import math
 from typing import Any
 
 from tlcomm_core.agent.actions import TaskEvent, TaskEventKind
@@ -75,6 +76,7 @@ def read_team_strategy(message: DecodedMessage, agent: str) -> StrategyRecord:
         communication_s=message.communication_time,
         potential_s=message.potential,
         initial_potential_s=message.initial_potential,
+        bound_s=message.bound if math.isfinite(message.bound) else None,
     )
     return StrategyRecord(_stamp_ns(message.header.stamp), agent, strategy)
 

@@ -78,8 +78,10 @@ def test_plan_explained(capsys: pytest.CaptureFixture[str]) -> None:
     assert explanation["second_best"]["without"] == {"from": "p1", "to": "r1", "action": None}
     needed = [rival["without"] for rival in explanation["rivals"] if rival["suffix_s"] is None]
     assert [move["action"] for move in needed] == ["unload", "measure", "collect"]
-    plain = json.loads(run(capsys, "plan", plant, "--json")[1])
-    assert "explanation" not in plain["agents"]["agent_1"]
+    plain = json.loads(run(capsys, "plan", plant, "--json")[1])["agents"]["agent_1"]
+    assert document["agents"]["agent_1"].keys() - plain.keys() == {"explanation"}
+    differs = {key for key, value in plain.items() if value != document["agents"]["agent_1"][key]}
+    assert differs <= {"planning_wall_s"}
 
 
 def test_a_plan_without_a_second_best_says_so(

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from support.command import CORRIDOR, run
+from support.command import CORRIDOR, refusal, run
 
 
 def test_round(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -37,6 +37,5 @@ def test_round(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_out_must_be_writable(capsys: pytest.CaptureFixture[str]) -> None:
     """``--out`` takes no file where none can be."""
-    status, _, err = run(capsys, "round", CORRIDOR, "--round", "1", "--out", "none/r.json")
-    assert status == 2
-    assert "can't write 'none/r.json': No such file or directory" in err
+    complaint = refusal(capsys, "round", CORRIDOR, "--round", "1", "--out", "none/r.json")
+    assert "can't write 'none/r.json': No such file or directory" in complaint

@@ -18,6 +18,7 @@ from tlcomm_core.agent.planner import Planner, local_plan, plan_for
 from tlcomm_core.agent.radio import Radio
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import PlanningError
+from tlcomm_core.game.solver import DEFAULT, Solver
 from tlcomm_core.geometry import Pose
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.protocol.actions import CountIgnored
@@ -125,7 +126,7 @@ class Member:
         return tuple(actions)
 
 
-def team_of(site: Site) -> Team:
+def team_of(site: Site, solver: Solver = DEFAULT) -> Team:
     """Return what every member of the scenario's team knows of it."""
     communication = site.scenario.communication
     return Team(
@@ -133,10 +134,18 @@ def team_of(site: Site) -> Team:
         planned_range_m=site.planned_range_m,
         period_s=communication.period_s,
         duration_s=communication.duration_s,
+        solver=solver,
     )
 
 
-def create(name: str, site: Site, pacing: Pacing, atlas: Atlas, seed: int = 0) -> Member:
+def create(
+    name: str,
+    site: Site,
+    pacing: Pacing,
+    atlas: Atlas,
+    seed: int = 0,
+    solver: Solver = DEFAULT,
+) -> Member:
     """Return a member of the scenario's team, with its local plan made.
 
     Args:
@@ -146,6 +155,7 @@ def create(name: str, site: Site, pacing: Pacing, atlas: Atlas, seed: int = 0) -
         atlas: travel times on the scenario's grid and round its regions; members in one
             process may share it.
         seed: of what befalls it, the run's.
+        solver: how its team finds the next meetings.
 
     Raises:
         PlanningError: the agent's task has no plan.
@@ -154,7 +164,7 @@ def create(name: str, site: Site, pacing: Pacing, atlas: Atlas, seed: int = 0) -
     allowance_s = _ALLOWANCE_S[pacing]
     tolerance_m = scenario.drive_of(name).position_tolerance_m
     travel = travel_of(name, site, atlas, allowance_s)
-    team = team_of(site)
+    team = team_of(site, solver)
     # Members' plans lead through regions: with this done, the first round takes no longer than
     # later ones.
     travel.prepare(site.region_location.values())

@@ -9,6 +9,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import TypeVar
 
 from tlcomm_core.agent.avoidance import avoided_regions, obstruction, travel_of
 from tlcomm_core.errors import InputError, PlanningError
@@ -23,11 +24,13 @@ from tlcomm_core.planning.synthesis import plan_task
 from tlcomm_core.planning.transition_system import TransitionSystem, build
 from tlcomm_core.scenario.checks import check_formulas
 from tlcomm_core.scenario.site import Site
-from tlcomm_core.scenario.task import hard_formula, task_field, task_of
+from tlcomm_core.scenario.task import Task, hard_formula, task_field, task_of
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import TravelTimes
 
 __all__ = ["Planner", "check_tasks", "explained_plan", "local_plan", "plan_for"]
+
+_Plan = TypeVar("_Plan", LocalPlan, Explanation)
 
 Planner = Callable[[str, Pose], LocalPlan]
 """Makes an agent's plan for a task (its text) from a pose; raises InputError or PlanningError."""
@@ -47,14 +50,7 @@ def local_plan(
     Raises:
         PlanningError: there is none; the message says whose.
     """
-    system, soft = _system(name, site, travel), _soft_task(name, site)
-    agent = site.scenario.agents[name]
-    try:
-        return plan_task(task_of(agent), system, objective, soft)
-    except PlanningError as error:
-        blocked = obstruction(site, system.states[0].location, hard_formula(agent), travel)
-        reason = f"{error}; {blocked}" if blocked else f"{error}"
-        raise type(error)(f"agents.{name}.{task_field(agent)}: {reason}") from error
+    return _made(plan_task, name, site, travel, objective)
 
 
 def explained_plan(
@@ -63,13 +59,33 @@ def explained_plan(
     """Return an agent's optimal local plan beside the best ones without a part of it.
 
     Args:
-        name: of an agent that has a plan.
+        name: as for ``local_plan``.
         site: the scenario.
         travel: as for ``local_plan``.
         objective: as for ``local_plan``.
+
+    Raises:
+        PlanningError: there is none; the message says whose.
     """
+    return _made(explain_plan, name, site, travel, objective)
+
+
+def _made(
+    make: Callable[[Task, TransitionSystem, Objective, SoftTask | None], _Plan],
+    name: str,
+    site: Site,
+    travel: TravelTimes,
+    objective: Objective,
+) -> _Plan:
+    """Return what is made of an agent's task; why there is none is told by agent and field."""
     system, soft = _system(name, site, travel), _soft_task(name, site)
-    return explain_plan(task_of(site.scenario.agents[name]), system, objective, soft)
+    agent = site.scenario.agents[name]
+    try:
+        return make(task_of(agent), system, objective, soft)
+    except PlanningError as error:
+        blocked = obstruction(site, system.states[0].location, hard_formula(agent), travel)
+        reason = f"{error}; {blocked}" if blocked else f"{error}"
+        raise type(error)(f"agents.{name}.{task_field(agent)}: {reason}") from error
 
 
 def _system(name: str, site: Site, travel: TravelTimes) -> TransitionSystem:

@@ -9,13 +9,18 @@ delay would be. It knows the agent's own neighbours, and nothing else of the con
 from bisect import bisect_right
 from typing import Final
 
-from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
+from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer, Proposal
 
 __all__ = ["Radio"]
 
 # Messages that one sender sends at the same instant are heard in this order of their kinds, since
 # ROS keeps the order on each topic only.
-_KIND_RANK: Final[dict[type[Message], int]] = {PlanOffer: 0, BestResponse: 1, Confirmation: 2}
+_KIND_RANK: Final[dict[type[Message], int]] = {
+    PlanOffer: 0,
+    Proposal: 1,
+    BestResponse: 2,
+    Confirmation: 3,
+}
 
 # Free running, a message may be taken off the air some time after it arrived, and links may have
 # changed since. One that comes later than this isn't let through.

@@ -6,6 +6,7 @@
 from collections.abc import Sequence
 
 from tlcomm_core.game.candidates import candidates
+from tlcomm_core.game.links import Links
 from tlcomm_core.game.offer import MemberOffer, offer_flaw
 from tlcomm_core.game.problem import RoundProblem
 from tlcomm_core.protocol.team import Team
@@ -29,6 +30,7 @@ class MeetingRounds:
         self._atlas = atlas
         self._team = team
         self._allowance_s = segment_allowance_s
+        self._links = Links(atlas.grid.locations_m, team.planned_range_m)
 
     def is_sound(self, offer: MemberOffer) -> bool:
         """Return whether candidates can be computed from a peer's offer."""
@@ -45,8 +47,7 @@ class MeetingRounds:
         return RoundProblem(
             round=round_,
             window_s=window_s,
-            range_m=self._team.planned_range_m,
-            locations_m=self._atlas.grid.locations_m,
+            links=self._links,
             candidates=tuple(
                 candidates(offer, departure_s, window_s, self._travel_of(offer)) for offer in offers
             ),

@@ -1,6 +1,7 @@
 """Algorithm 1 in one place: the reference that the protocol must agree with.
 
 ``solve``     the team strategies from S⁰ to a Nash equilibrium
+``improve``   the same from any team strategy
 ``Solution``  all of them, with their potentials
 """
 
@@ -18,7 +19,7 @@ from tlcomm_core.game.initial import initial_profile
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Profile, RoundProblem
 
-__all__ = ["Solution", "solve"]
+__all__ = ["Solution", "improve", "solve"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +27,7 @@ class Solution:
     """A run of the algorithm.
 
     Attributes:
-        profiles: S⁰, and the team strategy after each move.
+        profiles: S⁰ or another start, and the team strategy after each move.
         potentials_s: Φ of each; strictly falling.
         search: where the search ended.
     """
@@ -37,7 +38,7 @@ class Solution:
 
     @property
     def initial(self) -> Profile:
-        """S⁰."""
+        """What it began with."""
         return self.profiles[0]
 
     @property
@@ -54,9 +55,6 @@ class Solution:
 def solve(problem: RoundProblem, max_iterations: int = MAX_ITERATIONS) -> Solution:
     """Improve S⁰ by single moves until nobody gains by any, or the iterations run out.
 
-    In each iteration all agents find their best responses, and the one with the least change
-    moves, among equals the first by name.
-
     Args:
         problem: the round.
         max_iterations: K ≥ 1.
@@ -68,9 +66,31 @@ def solve(problem: RoundProblem, max_iterations: int = MAX_ITERATIONS) -> Soluti
     Deviates: when the balls Υ_i have no improvement left, all places are searched, so that the
         result is an equilibrium against every unilateral deviation.
     """
+    return improve(problem, initial_profile(problem), max_iterations=max_iterations)
+
+
+def improve(
+    problem: RoundProblem,
+    start: Profile,
+    scope: Scope = Scope.BALL,
+    max_iterations: int = MAX_ITERATIONS,
+) -> Solution:
+    """Improve a team strategy by single moves until nobody gains by any.
+
+    In each iteration all agents find their best responses, and the one with the least change
+    moves, among equals the first by name.
+
+    Args:
+        problem: the round.
+        start: an admissible team strategy.
+        scope: where to look for moves first.
+        max_iterations: K ≥ 1.
+
+    Source: the loop of Algorithm 1 of the paper.
+    """
     opens_s, _ = problem.window_s
-    profiles = [initial_profile(problem)]
-    search = Search(max_iterations=max_iterations)
+    profiles = [start]
+    search = Search(scope=scope, max_iterations=max_iterations)
     while search.scope is not None:
         responses = _responses(problem, profiles[-1], search.scope)
         mover = min(

@@ -15,7 +15,6 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from tlcomm_core.game.connectivity import connecting_places, within_range
 from tlcomm_core.game.potential import deviation_costs
 from tlcomm_core.game.problem import Choice, RoundProblem
 from tlcomm_core.game.strategy import Strategy
@@ -161,9 +160,9 @@ def _open_places(
     problem: RoundProblem, location: int, others: Sequence[Strategy], scope: Scope
 ) -> NDArray[np.intp]:
     """Return the locations, ascending, that the scope and the team's connectivity leave."""
-    places = np.arange(len(problem.locations_m))
-    if scope is Scope.BALL:
-        here_m = problem.locations_m[location : location + 1]
-        places = np.flatnonzero(within_range(problem.locations_m, here_m, problem.range_m))
-    others_m = np.array([(other.x_m, other.y_m) for other in others]).reshape(-1, 2)
-    return places[connecting_places(others_m, problem.locations_m[places], problem.range_m)]
+    connecting = problem.links.connecting(problem.places_of(others))
+    if scope is Scope.EVERYWHERE:
+        return np.flatnonzero(connecting)
+    near = problem.links.near(location)
+    places: NDArray[np.intp] = near[connecting[near]]
+    return places

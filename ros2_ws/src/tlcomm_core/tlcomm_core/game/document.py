@@ -3,6 +3,7 @@
 ``ROUND_FORMAT``     the document's ``format``
 ``round_document``   problem and solution as JSON-ready values
 ``profile_document`` one team strategy of it
+``solved_document``  what a solver found
 ``parse_round``      the problem of a document
 """
 
@@ -16,10 +17,12 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from tlcomm_core.errors import InputError
 from tlcomm_core.game.algorithm import Solution
+from tlcomm_core.game.links import Links
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Candidates, Profile, RoundProblem
+from tlcomm_core.game.solver import Solved
 
-__all__ = ["ROUND_FORMAT", "parse_round", "profile_document", "round_document"]
+__all__ = ["ROUND_FORMAT", "parse_round", "profile_document", "round_document", "solved_document"]
 
 ROUND_FORMAT: Final = "tlcomm-round/1"
 
@@ -63,6 +66,12 @@ def profile_document(problem: RoundProblem, profile: Profile) -> dict[str, objec
     }
 
 
+def solved_document(problem: RoundProblem, solved: Solved) -> dict[str, object]:
+    """Return what a team found with a solver, its bound None where nothing is proven."""
+    bound_s = solved.bound_s if math.isfinite(solved.bound_s) else None
+    return profile_document(problem, solved.solution.nash) | {"bound": bound_s}
+
+
 def parse_round(document: Mapping[str, object]) -> RoundProblem:
     """Return the problem of a document; members that it doesn't need are ignored.
 
@@ -81,8 +90,7 @@ def parse_round(document: Mapping[str, object]) -> RoundProblem:
     return RoundProblem(
         round=model.round,
         window_s=model.window,
-        range_m=model.range,
-        locations_m=np.array(model.locations, dtype=np.float64).reshape(-1, 2),
+        links=Links(np.array(model.locations, dtype=np.float64).reshape(-1, 2), model.range),
         candidates=tuple(
             _parse_table(agent, table, len(model.locations))
             for agent, table in zip(model.agents, model.candidates, strict=True)

@@ -1,6 +1,7 @@
 """The optimum of Problem 2 with a certificate.
 
 ``MOST_AGENTS``    of how many agents it is found in reasonable time
+``Share``          which part of the communication times to search
 ``Optimum``        the best team strategy found, and what is proven about it
 ``solve_exactly``  branch and bound over the communication time
 """
@@ -8,22 +9,44 @@
 import heapq
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tlcomm_core.game.placement import Neighbourhood, cheapest_placement
+from tlcomm_core.game.placement import cheapest_placement
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Profile, RoundProblem
 
-__all__ = ["MOST_AGENTS", "Optimum", "solve_exactly"]
+__all__ = ["MOST_AGENTS", "WHOLE", "Optimum", "Share", "solve_exactly"]
 
 MOST_AGENTS: Final = 10
 """Each further agent triples the time and doubles the memory."""
 
 # Two sums of the same costs in different orders may differ by this much.
 _ROUNDING_S: Final = 1e-7
+
+
+# Neighbouring communication times have similar potentials: small pieces dealt out in turn make
+# shares of equal promise.
+_PIECES_PER_SHARE: Final = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Share:
+    """Which part of the communication times to search.
+
+    Attributes:
+        index: whose share, from 0.
+        count: number of shares that together are the whole.
+    """
+
+    index: int
+    count: int
+
+
+WHOLE: Final = Share(0, 1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,8 +56,8 @@ class Optimum:
     Attributes:
         profile: the team strategy.
         potential_s: its Φ.
-        bound_s: no team strategy has a lower Φ than this; equal to ``potential_s`` but for
-            rounding when the search ran to its end.
+        bound_s: no team strategy with a communication time in the share has a lower Φ than this;
+            equal to ``potential_s`` but for rounding when the search ran to its end.
         placements: how many times the cheapest placement was computed.
     """
 
@@ -50,7 +73,10 @@ class Optimum:
 
 
 def solve_exactly(
-    problem: RoundProblem, start: Profile, is_over: Callable[[], bool] = lambda: False
+    problem: RoundProblem,
+    start: Profile,
+    share: Share = WHOLE,
+    is_over: Callable[[], bool] = lambda: False,
 ) -> Optimum:
     """Return the team strategy of least potential, or the best until interrupted.
 
@@ -63,11 +89,13 @@ def solve_exactly(
     Args:
         problem: a round of few agents: time and memory grow like 3^N and 2^N.
         start: an admissible team strategy, such as an equilibrium; the better, the faster.
+        share: the part of the communication times to search; the least of all shares' results is
+            the optimum, and the least of their bounds its certificate.
         is_over: asked before each placement; ends the search early.
 
     Source: Problem 2 of the paper, Eq. (5) and (8).
     """
-    search = _Search(problem, start)
+    search = _Search(problem, start, share)
     while search.is_open and not is_over():
         search.branch()
     return search.optimum
@@ -86,7 +114,7 @@ class _Interval:
 class _Search:
     """Branch and bound over the communication time; times count from r·T_c."""
 
-    def __init__(self, problem: RoundProblem, start: Profile) -> None:
+    def __init__(self, problem: RoundProblem, start: Profile, share: Share) -> None:
         self._costs = _Costs(problem)
         self._best = start
         self._best_s = self._costs.potential_s(start)
@@ -95,6 +123,8 @@ class _Search:
         last = len(self._costs.times_s) - 1
         if last >= 0:
             self._examine(0, last)
+        if share.count > 1:
+            self._keep(share)
 
     @property
     def is_open(self) -> bool:
@@ -111,9 +141,7 @@ class _Search:
         """Halve the most promising interval."""
         interval = heapq.heappop(self._open)
         times_s, team = self._costs.times_s, self._costs.team
-        # Later than this no time can beat the best one found.
-        latest_s = (self._best_s - _ROUNDING_S - interval.placement_s) / team
-        last = min(interval.last, int(np.searchsorted(times_s, latest_s)) - 1)
+        last = self._last_of_use(interval)
         if last < interval.first:
             return
         middle_s = (times_s[interval.first] + times_s[last]) / 2.0
@@ -122,6 +150,27 @@ class _Search:
         if middle < last:
             bound_s = team * times_s[middle + 1] + interval.placement_s
             self._push(bound_s, middle + 1, last, interval.placement_s)
+
+    def _keep(self, share: Share) -> None:
+        """Leave only this share of all that is open."""
+        times_s, team = self._costs.times_s, self._costs.team
+        whole, self._open = self._open, []
+        for interval in whole:
+            beyond = self._last_of_use(interval) + 1
+            pieces = share.count * _PIECES_PER_SHARE
+            ends_s = np.linspace(times_s[interval.first], times_s[beyond - 1], pieces + 1)
+            cuts = np.searchsorted(times_s, ends_s[1:-1]).tolist()
+            spans = list(pairwise([interval.first, *cuts, beyond]))
+            for first, following in spans[share.index :: share.count]:
+                if first < following:
+                    bound_s = team * times_s[first] + interval.placement_s
+                    self._push(bound_s, first, following - 1, interval.placement_s)
+
+    def _last_of_use(self, interval: _Interval) -> int:
+        """Return the last time of an interval at which the best one found can be beaten."""
+        room_s = self._best_s - _ROUNDING_S - interval.placement_s
+        latest = int(np.searchsorted(self._costs.times_s, room_s / self._costs.team))
+        return min(interval.last, latest - 1)
 
     def _examine(self, first: int, last: int) -> None:
         """Compute the cheapest placement for the interval's upper end."""
@@ -162,7 +211,7 @@ class _Costs:
             own.extra_s - np.where(np.isfinite(since_s), since_s, 0.0)
             for own, since_s in zip(problem.candidates, self._since_s, strict=True)
         ]
-        self._neighbourhood = Neighbourhood.within(problem.locations_m, problem.range_m)
+        self._neighbourhood = problem.links.neighbourhood
         earliest_s = max(0.0, *(float(since_s.min()) for since_s in self._since_s))
         arrivals_s = np.concatenate([since_s.ravel() for since_s in self._since_s])
         later_s = arrivals_s[np.isfinite(arrivals_s) & (arrivals_s > earliest_s)]

@@ -1,6 +1,5 @@
 """The cheapest connected placement of a team, each agent's costs by place given.
 
-``Neighbourhood``       which places are in range of which
 ``cheapest_placement``  the optimum, by dynamic programming over subsets of agents
 """
 
@@ -10,9 +9,9 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from tlcomm_core.game.connectivity import within_range
+from tlcomm_core.game.links import Neighbourhood
 
-__all__ = ["Neighbourhood", "Placement", "cheapest_placement"]
+__all__ = ["Placement", "cheapest_placement"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,45 +27,12 @@ class Placement:
     locations: tuple[int, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Neighbourhood:
-    """Which places are in range of which.
-
-    Attributes:
-        places: int[Z, D] the places in range of each, itself among them; shorter rows are filled
-            up with the place itself.
-    """
-
-    places: NDArray[np.intp]
-
-    @classmethod
-    def within(cls, locations_m: NDArray[np.float64], range_m: float) -> "Neighbourhood":
-        """Return the neighbourhood of the places [Z, 2] for a range. Cost: O(Z²)."""
-        linked = within_range(locations_m, locations_m, range_m)
-        degree = int(linked.sum(axis=1).max(initial=1))
-        here = np.arange(len(locations_m))[:, None]
-        order = np.argsort(~linked, axis=1, kind="stable")[:, :degree]
-        return cls(np.where(np.take_along_axis(linked, order, axis=1), order, here))
-
-    def among(self, kept: NDArray[np.intp]) -> "Neighbourhood":
-        """Return the neighbourhood of some of the places, which keep their order."""
-        index = np.full(len(self.places), -1, dtype=np.intp)
-        index[kept] = np.arange(len(kept))
-        places = index[self.places[kept]]
-        return Neighbourhood(np.where(places < 0, np.arange(len(kept))[:, None], places))
-
-    def least(self, cost: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the least of a cost float[Z] within range of each place, float[Z]."""
-        least: NDArray[np.float64] = cost[self.places].min(axis=1)
-        return least
-
-
 def cheapest_placement(costs: NDArray[np.float64], neighbourhood: Neighbourhood) -> Placement:
     """Return the connected placement of least total cost.
 
     Let g(S, z) be the least cost of a connected placement of the agents S with one of them at z.
     A spanning tree of such a placement, rooted there, has a subtree that can be split off: so
-    g(S, z) = min over S = A ∪ B of g(A, z) + min over z' within range of z of g(B, z').
+    g(S, z) = min over S = A ∪ B of g(A, z) + min over z' linked to z of g(B, z').
 
     Among equally cheap placements the same one is found wherever the costs are the same.
 

@@ -84,6 +84,7 @@ def evaluate(
     opens_s: float,
     iteration: int,
     initial_potential_s: float,
+    bound_s: float | None = None,
 ) -> TeamStrategy:
     """Return the team strategy made of ``strategies``, sorted by agent, with its t_c and Φ."""
     ordered = tuple(sorted(strategies, key=lambda strategy: strategy.agent))
@@ -94,4 +95,5 @@ def evaluate(
         communication_s=communication_time(ordered, opens_s),
         potential_s=potential(ordered, opens_s),
         initial_potential_s=initial_potential_s,
+        bound_s=bound_s,
     )

@@ -6,12 +6,15 @@
 ``Profile``       a team strategy as indices
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tlcomm_core.errors import LocalMisuseError
+from tlcomm_core.game.links import Links
 from tlcomm_core.game.strategy import Strategy
 
 __all__ = ["Candidates", "Choice", "Profile", "RoundProblem"]
@@ -67,16 +70,24 @@ class RoundProblem:
     Attributes:
         round: r ≥ 1.
         window_s: [r·T_c, (r+1)·T_c).
-        range_m: the range that places are planned with.
-        locations_m: [Z, 2] every candidate place.
+        links: every candidate place, and which of them are linked.
         candidates: per agent, sorted by the agent's name.
     """
 
     round: int
     window_s: tuple[float, float]
-    range_m: float
-    locations_m: NDArray[np.float64]
+    links: Links
     candidates: tuple[Candidates, ...]
+
+    @property
+    def locations_m(self) -> NDArray[np.float64]:
+        """[Z, 2] every candidate place."""
+        return self.links.locations_m
+
+    @property
+    def range_m(self) -> float:
+        """The range that places are planned with."""
+        return self.links.range_m
 
     @cached_property
     def agents(self) -> tuple[str, ...]:
@@ -95,6 +106,17 @@ class RoundProblem:
             arrival_s=float(own.arrival_s[candidate, location]),
             extra_travel_s=float(own.extra_s[candidate, location]),
         )
+
+    def places_of(self, strategies: Sequence[Strategy]) -> tuple[int, ...]:
+        """Return the indices of the strategies' places.
+
+        Raises:
+            LocalMisuseError: a strategy's place is none of the locations.
+        """
+        places = [self.links.place_at(strategy.x_m, strategy.y_m) for strategy in strategies]
+        if None in places:
+            raise LocalMisuseError(f"{strategies[places.index(None)]!r} is at no location")
+        return tuple(place for place in places if place is not None)
 
     def strategies(self, profile: Profile) -> tuple[Strategy, ...]:
         """Return every agent's strategy in a profile, in the order of ``agents``."""

@@ -8,6 +8,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from tlcomm_core.game.links import Links
 from tlcomm_core.game.problem import Candidates, RoundProblem
 
 __all__ = ["sample_problem"]
@@ -37,8 +38,7 @@ def sample_problem(
     return RoundProblem(
         round=round(opens_s / 60.0),
         window_s=(opens_s, opens_s + 60.0),
-        range_m=float(rng.choice([0.5, 0.75, 1.0])),
-        locations_m=locations_m,
+        links=Links(locations_m, float(rng.choice([0.5, 0.75, 1.0]))),
         candidates=tuple(
             _sample_candidates(rng, f"agent_{agent:02d}", tasks, locations_m, opens_s)
             for agent in range(team_size)

@@ -41,6 +41,7 @@ class TeamStrategy:
         communication_s: t_c = max(max_i t_i, r·T_c).
         potential_s: Φ = Σ_i δ_i + (t_c − t_i).
         initial_potential_s: Φ of S⁰.
+        bound_s: no team strategy has a lower Φ; None if nothing is proven.
     """
 
     round: int
@@ -49,3 +50,4 @@ class TeamStrategy:
     communication_s: float
     potential_s: float
     initial_potential_s: float
+    bound_s: float | None = None

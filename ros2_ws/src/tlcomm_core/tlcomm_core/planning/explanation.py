@@ -10,14 +10,16 @@ them. The best plan of the latter kind is called the second best.
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Final
 
 import numpy as np
 
-from tlcomm_core.errors import UnreachableTaskError
 from tlcomm_core.ltl import BuchiAutomaton, Formula, translate
 from tlcomm_core.planning import product as products
+from tlcomm_core.planning.failure import failure
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Key, Lasso, Objective, optimal_lasso
+from tlcomm_core.planning.on_the_fly import check_size
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.planning.product import Product
 from tlcomm_core.planning.relaxation import SoftTask
@@ -56,77 +58,67 @@ class Rival:
     plan: LocalPlan | None
 
 
-@dataclass(frozen=True, slots=True)
 class Explanation:
-    """The optimal plan beside what else there is.
-
-    Attributes:
-        plan: the optimal plan.
-        rivals: one for each distinct move of its suffix, in order.
-        second_best: the best of the rivals that have a plan, the first of equals; ``None`` if the
-            optimal suffix is the only one, but for moves that could be added to it.
-    """
-
-    plan: LocalPlan
-    rivals: tuple[Rival, ...]
-    second_best: Rival | None
-
-
-def explain_plan(
-    task: Formula | BuchiAutomaton,
-    system: TransitionSystem,
-    objective: Objective = SUFFIX_FIRST,
-    soft: SoftTask | None = None,
-) -> Explanation:
-    """Return the optimal plan and the best ones without each of its suffix's moves.
-
-    Args:
-        task: one that has a plan.
-        system: the agent's transition system.
-        objective: what is least, for all of them.
-        soft: as for ``plan_task``; what its violation costs counts.
-
-    Raises:
-        UnreachableTaskError: there is no plan; ``plan_task`` says why.
-    Cost: that of ``plan_task``, and one more search per distinct move, each on twice the product.
-    """
-    return _Comparison(task, system, objective, soft).explanation()
-
-
-class _Comparison:
-    """The optimal lasso of one product against the best ones of parts of it."""
+    """The optimal plan of one product against the best ones of parts of it."""
 
     def __init__(
         self,
-        task: Formula | BuchiAutomaton,
+        product: Product,
+        best: Lasso,
         system: TransitionSystem,
+        automaton: BuchiAutomaton,
         objective: Objective,
         soft: SoftTask | None,
     ) -> None:
-        self._soft: Final = soft
-        self._system: Final = system
-        self._objective: Final = objective
-        self._automaton: Final[BuchiAutomaton] = (
-            task if isinstance(task, BuchiAutomaton) else translate(task, system.labels)
-        )
-        self._product: Final = products.build(system, self._automaton, soft)
-        best = optimal_lasso(self._product, objective)
-        if best is None:
-            raise UnreachableTaskError("the task has no plan")
-        self._best: Final = best
-        self._move_of: Final = _moves(self._product, system)
+        """Note what there is; rivals are searched for when they are asked for.
 
-    def explanation(self) -> Explanation:
-        """Search once for each distinct move of the optimal suffix."""
-        moves = dict.fromkeys(self._move_of[list(self._best.suffix)].tolist())
-        lassos = [self._best_without(move) for move in moves]
-        rivals = tuple(
+        Args:
+            product: of system and automaton.
+            best: its optimal lasso.
+            system: the agent's transition system.
+            automaton: its task's.
+            objective: what is least.
+            soft: what the product relaxes, if anything.
+        """
+        self._product: Final = product
+        self._best: Final = best
+        self._system: Final = system
+        self._automaton: Final = automaton
+        self._objective: Final = objective
+        self._soft: Final = soft
+        self._move_of: Final = _moves(product, system)
+
+    @cached_property
+    def plan(self) -> LocalPlan:
+        """The optimal plan."""
+        return self._told(self._best)
+
+    @cached_property
+    def rivals(self) -> tuple[Rival, ...]:
+        """One for each distinct move of the optimal suffix, in order.
+
+        Cost: one search per distinct move, each on twice the product.
+        """
+        return tuple(
             Rival(self._told_move(move), None if lasso is None else self._told(lasso))
-            for move, lasso in zip(moves, lassos, strict=True)
+            for move, lasso in self._lassos.items()
         )
+
+    @property
+    def second_best(self) -> Rival | None:
+        """The best of the rivals that have a plan, the first of equals.
+
+        ``None`` if the optimal suffix is the only one, but for moves that could be added to it.
+        """
+        lassos = self._lassos.values()
         keys = [(self._key(lasso), place) for place, lasso in enumerate(lassos) if lasso]
-        second_best = rivals[min(keys)[1]] if keys else None
-        return Explanation(self._told(self._best), rivals, second_best)
+        return self.rivals[min(keys)[1]] if keys else None
+
+    @cached_property
+    def _lassos(self) -> dict[int, Lasso | None]:
+        """The best lasso without each move of the optimal suffix."""
+        moves = dict.fromkeys(self._move_of[list(self._best.suffix)].tolist())
+        return {move: self._best_without(move) for move in moves}
 
     def _best_without(self, move: int) -> Lasso | None:
         """Return the best lasso of the product whose suffix makes no edge of a move."""
@@ -159,6 +151,37 @@ class _Comparison:
         start = np.searchsorted(product.initial, product.source[first[0]])
         first_ns = int(product.initial_ns[start] + times_ns[first].sum())
         return self._objective.key(first_ns, int(times_ns[suffix].sum()))
+
+
+def explain_plan(
+    task: Formula | BuchiAutomaton,
+    system: TransitionSystem,
+    objective: Objective = SUFFIX_FIRST,
+    soft: SoftTask | None = None,
+) -> Explanation:
+    """Return the optimal plan and the best ones without each of its suffix's moves.
+
+    Args:
+        task: as for ``plan_task``.
+        system: the agent's transition system.
+        objective: what is least, for all of them.
+        soft: as for ``plan_task``; what its violation costs counts.
+
+    Raises:
+        UnsatisfiableTaskError: no word satisfies the task.
+        UnreachableTaskError: some word does, but none of a run of the system.
+        IntractableTaskError: see ``translate``, ``check_size`` and ``product.build``.
+
+    Cost: that of ``plan_task``, but for the whole product, however large.
+    """
+    automaton = task if isinstance(task, BuchiAutomaton) else translate(task, system.labels)
+    if soft is None:
+        check_size(system, automaton)
+    product = products.build(system, automaton, soft)
+    best = optimal_lasso(product, objective)
+    if best is None:
+        raise failure(task, automaton, system)
+    return Explanation(product, best, system, automaton, objective, soft)
 
 
 def _moves(product: Product, system: TransitionSystem) -> Ints:

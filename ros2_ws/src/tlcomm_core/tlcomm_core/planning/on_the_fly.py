@@ -1,7 +1,8 @@
 """What an optimal lasso needs of a transition system, for products too large to be held.
 
 - ``MOST_HELD``, ``MOST_STATES``, ``MOST_READ``   limits
-- ``is_large``        whether a product may be too large
+- ``is_large``        whether a product may be too large to be held
+- ``check_size``      refuses those that are too large altogether
 - ``essential_part``  the steps of the optimal lassos
 """
 
@@ -18,7 +19,7 @@ from tlcomm_core.planning.lasso import Key, Objective
 from tlcomm_core.planning.product_rows import Edges, ProductRows
 from tlcomm_core.planning.transition_system import TransitionSystem
 
-__all__ = ["MOST_HELD", "MOST_READ", "MOST_STATES", "essential_part", "is_large"]
+__all__ = ["MOST_HELD", "MOST_READ", "MOST_STATES", "check_size", "essential_part", "is_large"]
 
 Bools = NDArray[np.bool_]
 Ints = NDArray[np.int64]
@@ -34,6 +35,21 @@ _NEVER_NS: Final = 2**61
 def is_large(system: TransitionSystem, automaton: BuchiAutomaton) -> bool:
     """Return whether the product may have more than ``MOST_HELD`` edges."""
     return len(system.source) * automaton.state_count > MOST_HELD
+
+
+def check_size(system: TransitionSystem, automaton: BuchiAutomaton) -> None:
+    """See that the product isn't too large to be searched at all.
+
+    Raises:
+        IntractableTaskError: it may have more than ``MOST_STATES`` states.
+    """
+    size = len(system.states) * automaton.state_count
+    if size > MOST_STATES:
+        raise IntractableTaskError(
+            f"the product of {len(system.states)} states of the agent and {automaton.state_count}"
+            f" of the task's automaton is larger than {MOST_STATES};"
+            " split the task or leave out regions"
+        )
 
 
 def essential_part(
@@ -57,13 +73,7 @@ def essential_part(
         at the best lasso so far, and left out where a bound shows that none is better. Memory: 60
         bytes per state, and the edges that are read at a time.
     """
-    size = len(system.states) * automaton.state_count
-    if size > MOST_STATES:
-        raise IntractableTaskError(
-            f"the product of {len(system.states)} states of the agent and {automaton.state_count}"
-            f" of the task's automaton is larger than {MOST_STATES};"
-            " split the task or leave out regions"
-        )
+    check_size(system, automaton)
     steps = _Search(ProductRows(system, automaton), objective).essential_steps()
     columns = ("source", "target", "action", "label", "drive_s", "drive_m", "stay_s")
     return replace(system, **{name: getattr(system, name)[steps] for name in columns})

@@ -1,4 +1,4 @@
-"""The second phase: Algorithm 1, each agent with its own candidates and the others' words.
+"""The second phase: proposals and Algorithm 1, each agent with what the others say.
 
 ``Improving``  one agent's part in it
 """
@@ -7,13 +7,15 @@ import math
 from collections.abc import Iterable
 
 from tlcomm_core.errors import LocalMisuseError
-from tlcomm_core.game.best_response import Search, best_response
+from tlcomm_core.game.best_response import Scope, Search, best_response
 from tlcomm_core.game.initial import initial_profile
 from tlcomm_core.game.potential import evaluate, potential
-from tlcomm_core.game.problem import Choice, RoundProblem
-from tlcomm_core.game.strategy import Strategy, TeamStrategy
+from tlcomm_core.game.problem import Choice, Profile, RoundProblem
+from tlcomm_core.game.recognition import POTENTIAL_TOLERANCE_S, recognise
+from tlcomm_core.game.solver import Propose, Solver
+from tlcomm_core.game.strategy import TeamStrategy
 from tlcomm_core.protocol.consensus import MinimumConsensus
-from tlcomm_core.protocol.messages import BestResponse
+from tlcomm_core.protocol.messages import BestResponse, Proposal, Word
 from tlcomm_core.protocol.reception import Reception
 
 __all__ = ["Improving"]
@@ -22,10 +24,14 @@ __all__ = ["Improving"]
 class Improving:
     """One agent's part in improving S⁰ to a Nash equilibrium.
 
-    All members hold the same S⁰ since they hold the same offers. In each iteration each finds the
-    best response to the strategies it holds, the consensus picks i*, and all replace the same
-    entry by the values that came with the minimum. So by induction all hold the same strategies
-    at each iteration, and end at the same one.
+    All members hold the same S⁰ since they hold the same offers. With a solver that proposes, the
+    first iteration compares everybody's proposal, and all replace S⁰ by the best. In each further
+    iteration each finds the best response to the strategies it holds, the consensus picks i*, and
+    all replace the same entry by the values that came with the minimum. So by induction all hold
+    the same strategies at each iteration, and end at the same one.
+
+    A proposal is taken only if it is what this agent could have found itself: candidates of the
+    round, connected, with the potential that it claims.
 
     Source: Algorithm 1 of the paper.
     """
@@ -36,15 +42,17 @@ class Improving:
         problem: RoundProblem,
         neighbours: Iterable[str],
         exchanges: int,
+        solver: Solver,
         max_iterations: int,
     ) -> None:
-        """Compute S⁰ and one's own best response to it.
+        """Compute S⁰ and one's own first word: a proposal, or the best response to S⁰.
 
         Args:
             own: this agent's name.
-            problem: the round; of the others' candidates only S⁰ makes use.
+            problem: the round; of the others' candidates only S⁰ and proposals make use.
             neighbours: the agent's neighbours in the meeting graph.
             exchanges: the meeting graph's diameter, at least 1.
+            solver: what to propose.
             max_iterations: K.
 
         Raises:
@@ -58,9 +66,15 @@ class Improving:
         self._choice = initial.choice(self._index)
         self._strategies = {strategy.agent: strategy for strategy in strategies}
         self._initial_potential_s = potential(strategies, problem.window_s[0])
-        self._search = Search(max_iterations=max_iterations)
-        self._consensus = MinimumConsensus(own, problem.round, neighbours, exchanges)
-        self._owed = [self._respond()]
+        self._bound_s: float | None = None
+        # Proposals end where single moves have nothing left in the balls; all places decide.
+        scope = Scope.BALL if solver.propose is None else Scope.EVERYWHERE
+        self._first_response = 0 if solver.propose is None else 1
+        self._search = Search(scope=scope, max_iterations=max_iterations)
+        self._consensus = MinimumConsensus(own, neighbours, exchanges)
+        self._owed: list[Word] = [
+            self._respond() if solver.propose is None else self._propose(solver.propose, initial)
+        ]
 
     @property
     def iteration(self) -> int:
@@ -78,21 +92,26 @@ class Improving:
             self._problem.window_s[0],
             self._search.moves,
             self._initial_potential_s,
+            self._bound_s,
         )
 
     @property
-    def unsuperseded(self) -> tuple[BestResponse, ...]:
+    def unsuperseded(self) -> tuple[Word, ...]:
         """The messages that some neighbour may still need."""
         return self._consensus.unsuperseded
 
-    def hear(self, message: BestResponse) -> Reception:
+    def hear(self, message: Word) -> Reception:
         """Take in a neighbour's minimum."""
-        strategy = message.strategy
-        if not self._strategies.keys() >= {message.candidate, strategy.agent}:
+        match message:
+            case Proposal():
+                named = {message.candidate, *(own.agent for own in message.strategies)}
+                is_sound = self._is_sound_proposal(message)
+            case BestResponse():
+                named = {message.candidate, message.strategy.agent}
+                is_sound = self._is_sound_response(message)
+        if not self._strategies.keys() >= named:
             return Reception.FOREIGN
-        if strategy.agent != message.candidate or not self._is_sound(message.change_s, strategy):
-            return Reception.MALFORMED
-        return self._consensus.hear(message)
+        return self._consensus.hear(message) if is_sound else Reception.MALFORMED
 
     @property
     def awaited(self) -> str | None:
@@ -104,16 +123,27 @@ class Improving:
         """Whether all neighbours are known to be in this phase too, or past it."""
         return self._consensus.has_heard_all
 
-    def _is_sound(self, change_s: float, strategy: Strategy) -> bool:
+    def _is_sound_response(self, message: BestResponse) -> bool:
         """Return whether the values can be those of an agent's best response."""
-        values = (strategy.x_m, strategy.y_m, strategy.arrival_s, strategy.extra_travel_s)
+        strategy = message.strategy
         return (
-            -math.inf < change_s <= 0.0
-            and all(math.isfinite(value) for value in values)
-            and strategy.arrival_s < self._problem.window_s[1]
+            message.iteration >= self._first_response
+            and strategy.agent == message.candidate
+            and -math.inf < message.change_s <= 0.0
+            and self._problem.links.place_at(strategy.x_m, strategy.y_m) is not None
+            and -math.inf < strategy.extra_travel_s < math.inf
+            and -math.inf < strategy.arrival_s < self._problem.window_s[1]
         )
 
-    def owed(self) -> list[BestResponse]:
+    def _is_sound_proposal(self, message: Proposal) -> bool:
+        """Return whether the strategies are the round's, with the potential claimed."""
+        return (
+            message.iteration < self._first_response
+            and message.bound_s <= message.potential_s + POTENTIAL_TOLERANCE_S
+            and recognise(self._problem, message.strategies, message.potential_s) is not None
+        )
+
+    def owed(self) -> list[Word]:
         """Go as far as what was heard allows; return what is to be said on the way."""
         while self._search.scope is not None:
             message = self._consensus.advance()
@@ -127,16 +157,49 @@ class Improving:
         said, self._owed = self._owed, []
         return said
 
-    def _conclude(self, least: BestResponse) -> BestResponse | None:
-        """Make i*'s move, if it gains by one; begin the next iteration, if there is one."""
+    def _conclude(self, least: Word) -> Word | None:
+        """Take the best proposal, or make i*'s move if it gains by one; go on, if need be."""
+        match least:
+            case Proposal():
+                self._adopt(least)
+                return self._respond()
+            case BestResponse():
+                self._move(least)
+                return None if self._search.scope is None else self._respond()
+
+    def _adopt(self, proposal: Proposal) -> None:
+        profile = recognise(self._problem, proposal.strategies, proposal.potential_s)
+        if profile is None:
+            raise LocalMisuseError(f"a proposal of {proposal.candidate!r} was compared unseen")
+        self._choice = profile.choice(self._index)
+        self._strategies = {strategy.agent: strategy for strategy in proposal.strategies}
+        self._bound_s = proposal.bound_s if proposal.bound_s > -math.inf else None
+
+    def _move(self, least: BestResponse) -> None:
         if least.change_s < 0.0:
             self._strategies[least.candidate] = least.strategy
             if least.candidate == self._own:
                 self._choice = self._response
         self._search = self._search.after(least.change_s)
-        return None if self._search.scope is None else self._respond()
 
-    def _respond(self) -> BestResponse:
+    def _propose(self, propose: Propose, initial: Profile) -> Word:
+        """Begin with the own proposal."""
+        proposed = propose(self._problem, initial, self._index)
+        strategies = self._problem.strategies(proposed.profile)
+        return self._consensus.begin(
+            Proposal(
+                sender=self._own,
+                round=self._problem.round,
+                iteration=0,
+                hop=0,
+                candidate=self._own,
+                potential_s=potential(strategies, self._problem.window_s[0]),
+                bound_s=proposed.bound_s,
+                strategies=strategies,
+            )
+        )
+
+    def _respond(self) -> Word:
         """Begin an iteration with the own best response."""
         if self._search.scope is None:
             raise LocalMisuseError("a best response was asked for after the search")
@@ -145,7 +208,14 @@ class Improving:
             self._problem, self._index, self._choice, others, self._search.scope
         )
         self._response: Choice = response.choice
-        strategy: Strategy = self._problem.strategy(
-            self._index, response.location, response.candidate
+        return self._consensus.begin(
+            BestResponse(
+                sender=self._own,
+                round=self._problem.round,
+                iteration=self._consensus.iteration + 1,
+                hop=0,
+                candidate=self._own,
+                change_s=response.change_s,
+                strategy=self._problem.strategy(self._index, response.location, response.candidate),
+            )
         )
-        return self._consensus.begin(response.change_s, strategy)

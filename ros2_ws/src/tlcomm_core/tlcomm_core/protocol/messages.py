@@ -1,17 +1,22 @@
 """What agents say to each other, as values; each carries its ticket.
 
 ``PlanOffer``     who is here, since when, and what it plans
+``Proposal``      a whole team strategy on its way through the team
 ``BestResponse``  σ* and strategy on their way through the team
+``Word``          either of these two: what a minimum consensus exchanges
 ``Confirmation``  who holds the equilibrium
-``Message``       any of the three
+``Message``       any of the four
 """
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Self
 
+from tlcomm_core.game.best_response import priority
 from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.strategy import Strategy
 
-__all__ = ["BestResponse", "Confirmation", "Message", "PlanOffer"]
+__all__ = ["BestResponse", "Confirmation", "Message", "PlanOffer", "Proposal", "Word"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +34,47 @@ class PlanOffer:
     round: int
     known: tuple[str, ...]
     offers: tuple[MemberOffer, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Proposal:
+    """The team strategy of least potential seen so far, one hop further.
+
+    Attributes:
+        sender: who says it.
+        round: the round that is being planned.
+        iteration: number of the comparison; proposals are compared once, in the first.
+        hop: how many exchanges the minimum has been through.
+        candidate: who proposed it.
+        potential_s: its Φ.
+        bound_s: no team strategy in what the agents heard so far have searched has a lower Φ;
+            −inf where nothing is proven.
+        strategies: one per agent, sorted by agent.
+    """
+
+    sender: str
+    round: int
+    iteration: int
+    hop: int
+    candidate: str
+    potential_s: float
+    bound_s: float
+    strategies: tuple[Strategy, ...]
+
+    @property
+    def priority(self) -> tuple[float, str]:
+        """The sort key: the least potential first, among equals the first name."""
+        return self.potential_s, self.candidate
+
+    @property
+    def claim(self) -> tuple[object, ...]:
+        """What stays the same on the way."""
+        return self.iteration, self.potential_s, self.strategies
+
+    def joined(self, heard: Iterable["Word"]) -> Self:
+        """Return this proposal with what is proven by all: each bound holds for its share."""
+        bounds_s = [word.bound_s for word in heard if isinstance(word, Proposal)]
+        return replace(self, bound_s=min([self.bound_s, *bounds_s]))
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +99,23 @@ class BestResponse:
     change_s: float
     strategy: Strategy
 
+    @property
+    def priority(self) -> tuple[float, str]:
+        """The sort key: the least change first, among equals the first name."""
+        return priority(self.change_s, self.candidate)
+
+    @property
+    def claim(self) -> tuple[object, ...]:
+        """What stays the same on the way."""
+        return self.iteration, self.change_s, self.strategy
+
+    def joined(self, heard: Iterable["Word"]) -> Self:  # noqa: ARG002
+        """Return this response: others add nothing to it."""
+        return self
+
+
+Word = Proposal | BestResponse
+
 
 @dataclass(frozen=True, slots=True)
 class Confirmation:
@@ -73,4 +136,4 @@ class Confirmation:
     confirmed: tuple[str, ...]
 
 
-Message = PlanOffer | BestResponse | Confirmation
+Message = PlanOffer | Word | Confirmation

@@ -9,8 +9,8 @@ The phases, in order; each ends by what was *heard*, never by a guess about othe
 GATHERING   Everyone floods its offer. Who holds all members' offers knows that the team is
             present, and t_c. All then pose the same round problem and compute the same S⁰.
             (``gathering``)
-IMPROVING   Algorithm 1 over the meeting graph, which is known to all from the offers' places.
-            (``improving``, ``consensus``)
+IMPROVING   Over the meeting graph, which is known to all from the offers' places: everyone's
+            proposal, if the solver makes any, and Algorithm 1. (``improving``, ``consensus``)
 CONFIRMING  The search is over; everyone floods that it holds the result. (``confirming``)
 AGREED      All confirmations are known: the team strategy is held as agreed.
 
@@ -21,6 +21,7 @@ Which messages matter in which phase (rows: what is heard of the round being pla
 
               GATHERING      IMPROVING      CONFIRMING     AGREED
 PlanOffer     learn, relay   answer         answer         answer
+Proposal and
 BestResponse  keep           exchange       late           answer
 Confirmation  keep           keep           learn, relay   answer
 
@@ -52,7 +53,7 @@ from typing import Final, Protocol
 import numpy as np
 
 from tlcomm_core.errors import LocalMisuseError
-from tlcomm_core.game.connectivity import LINK_TOLERANCE_M
+from tlcomm_core.game.links import LINK_TOLERANCE_M
 from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.problem import RoundProblem
 from tlcomm_core.game.strategy import TeamStrategy
@@ -60,7 +61,14 @@ from tlcomm_core.protocol.actions import Action, CountIgnored, HoldStrategy, Sen
 from tlcomm_core.protocol.confirming import Confirming
 from tlcomm_core.protocol.gathering import Gathering
 from tlcomm_core.protocol.improving import Improving
-from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
+from tlcomm_core.protocol.messages import (
+    BestResponse,
+    Confirmation,
+    Message,
+    PlanOffer,
+    Proposal,
+    Word,
+)
 from tlcomm_core.protocol.reception import Reception
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.world.radio import diameter, distances_m, links
@@ -118,7 +126,7 @@ class Negotiation:
         self._agreed: TeamStrategy | None = None
         self._meeting_s: float | None = None
         self._neighbours: frozenset[str] = frozenset()
-        self._kept: list[BestResponse | Confirmation] = []
+        self._kept: list[Word | Confirmation] = []
         self._ignored: list[CountIgnored] = []
         self._retry_s = team.retry_s
         self._next_need_s = math.inf
@@ -224,14 +232,14 @@ class Negotiation:
         match message:
             case PlanOffer():
                 return self._gathering.hear(message)
-            case BestResponse():
+            case Proposal() | BestResponse():
                 if self._improving is None:
                     return self._keep(message)
                 return self._answer_if_repeated(message, self._improving.hear(message))
             case Confirmation():
                 return self._confirming.hear(message) if self._confirming else self._keep(message)
 
-    def _answer_if_repeated(self, message: BestResponse, reception: Reception) -> Reception:
+    def _answer_if_repeated(self, message: Word, reception: Reception) -> Reception:
         """Once settled, show so to a neighbour that still repeats what it said last."""
         if self._confirming is None or reception not in (Reception.LATE, Reception.DUPLICATE):
             return reception
@@ -240,7 +248,7 @@ class Negotiation:
         self._confirming.answer()
         return Reception.ACCEPTED
 
-    def _keep(self, message: BestResponse | Confirmation) -> Reception:
+    def _keep(self, message: Word | Confirmation) -> Reception:
         if message in self._kept:
             return Reception.DUPLICATE
         if sum(kept.sender == message.sender for kept in self._kept) >= _KEPT_PER_SENDER:
@@ -288,6 +296,7 @@ class Negotiation:
             self._rounds.problem(self._round, departure_s, offers),
             self._neighbours,
             exchanges,
+            self._team.solver,
             self._team.max_iterations,
         )
 

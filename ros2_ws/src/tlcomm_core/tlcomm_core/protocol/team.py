@@ -5,6 +5,8 @@
 
 from dataclasses import dataclass
 
+from tlcomm_core.game.solver import DEFAULT, Solver
+
 __all__ = ["Team"]
 
 
@@ -21,6 +23,7 @@ class Team:
         retry_s: a message not known to be superseded is repeated after this time.
         patience_s: while members are missing, repetitions become rarer up to this interval.
         linger_s: after the meeting, whoever holds what a neighbour may lack stays for so long.
+        solver: how next meetings are found.
         max_iterations: K of Algorithm 1.
     """
 
@@ -28,6 +31,7 @@ class Team:
     planned_range_m: float
     period_s: float
     duration_s: float
+    solver: Solver = DEFAULT
     retry_s: float = 0.1
     patience_s: float = 1.6
     linger_s: float = 0.5

@@ -8,6 +8,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -69,70 +70,94 @@ def audit_task(
         track: where it was.
         end_s: end of the run.
     """
-    steps = [record for record in events if record.event.kind in _STEPS]
-    claimed_s = [
-        record.stamp_ns * 1e-9
-        for record in events
-        if record.event.kind is TaskEventKind.TASK_SATISFIED
-    ]
+    claimed_s = _times_s(events, TaskEventKind.TASK_SATISFIED)
+    seen = (*_misplaced(scenario, agent, events, track), *_hasty(scenario, agent, events))
     if any(record.event.kind is TaskEventKind.TASK_CHANGED for record in events):
         # What the scenario says isn't what it did.
-        seen = (*_misplaced(scenario, agent, events, track), *_hasty(scenario, agent, events))
         return TaskFinding(agent, len(claimed_s), None, None, None, None, seen)
-    own = scenario.agents[agent]
-    word = read_word(scenario, agent, steps, track)
-    # What holds before the first letter, or where the agent started, needs no step.
-    times_s = [0.0, 0.0, *(record.stamp_ns * 1e-9 for record in steps)]
-    progress = follow(task_of(own), word)
-    part = None
-    if own.automaton is None:
-        part = recurring_part(read_formula(own.whole_task))
-    ends = progress.passes if part is None else count_fulfilled(part, word)
-    # A step claims what it does; the start claims nothing.
-    satisfied_s = None if ends is None else [times_s[end + 1] for end in ends if end]
-    violations = [
-        *_misplaced(scenario, agent, events, track),
-        *_hasty(scenario, agent, events),
-        *_violated(agent, progress, word, times_s),
-    ]
-    if satisfied_s is not None:
-        violations += _unfounded(agent, claimed_s, satisfied_s)
-    gap_s = None
-    if part is not None and satisfied_s is not None:
-        gap_s, gap_from_s = _longest_gap([0.0, *satisfied_s, end_s])
-        # Each attempt that failed may have cost a window.
-        failed = sum(
-            record.event.is_failed_attempt
-            and gap_from_s < record.stamp_ns * 1e-9 <= gap_from_s + gap_s
-            for record in events
-        )
-        spare_s = failed * scenario.communication.period_s
-        if gap_s > _patience_s(part, scenario, agent) + spare_s:
-            violations.append(
-                f"{agent}: task not satisfied from {gap_from_s:.3f} s to {gap_from_s + gap_s:.3f} s"
-            )
+    course = _course(scenario, agent, events, track)
+    gap = course.longest_gap(end_s)
+    settled, satisfied_s = course.progress.settled, course.satisfied_s
     return TaskFinding(
         agent=agent,
         claimed=len(claimed_s),
         satisfied=None if satisfied_s is None else len(satisfied_s),
-        longest_gap_s=gap_s,
-        verdict=progress.verdict,
-        settled_s=None if progress.settled is None else times_s[progress.settled],
-        violations=tuple(violations),
+        longest_gap_s=None if gap is None else gap.length_s,
+        verdict=course.progress.verdict,
+        settled_s=None if settled is None else course.times_s[settled],
+        violations=(
+            *seen,
+            *_violated(agent, course),
+            *_unfounded(agent, claimed_s, satisfied_s),
+            *_neglected(scenario, agent, events, course.recurring, gap),
+        ),
     )
 
 
-def _violated(
-    agent: str, progress: Progress, word: Sequence[Letter], times_s: Sequence[float]
-) -> Iterator[str]:
+def _times_s(events: Sequence[TaskRecord], *kinds: TaskEventKind) -> list[float]:
+    return [record.stamp_ns * 1e-9 for record in events if record.event.kind in kinds]
+
+
+class _Gap(NamedTuple):
+    """A time without a satisfaction."""
+
+    length_s: float
+    from_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Course:
+    """How a task went by the agent's steps.
+
+    Attributes:
+        word: what they read.
+        times_s: of each prefix of the word, from the empty one on.
+        progress: the task's.
+        recurring: φ if the task is □◇φ with co-safe φ.
+        satisfied_s: when it was satisfied; ``None`` where the steps leave that open.
+    """
+
+    word: Sequence[Letter]
+    times_s: Sequence[float]
+    progress: Progress
+    recurring: Tree | None
+    satisfied_s: Sequence[float] | None
+
+    def longest_gap(self, end_s: float) -> _Gap | None:
+        """Return the longest time without a satisfaction, the last of equals, of □◇φ alone."""
+        if self.recurring is None or self.satisfied_s is None:
+            return None
+        moments_s = pairwise([0.0, *self.satisfied_s, end_s])
+        return max(_Gap(later - earlier, earlier) for earlier, later in moments_s)
+
+
+def _course(
+    scenario: Scenario, agent: str, events: Sequence[TaskRecord], track: Track | None
+) -> _Course:
+    """Follow an agent's task along its steps."""
+    own = scenario.agents[agent]
+    steps = [record for record in events if record.event.kind in _STEPS]
+    word = read_word(scenario, agent, steps, track)
+    # What holds before the first letter, or where the agent started, needs no step.
+    times_s = [0.0, 0.0, *_times_s(events, *_STEPS)]
+    progress = follow(task_of(own), word)
+    recurring = None if own.automaton is not None else recurring_part(read_formula(own.whole_task))
+    ends = progress.passes if recurring is None else count_fulfilled(recurring, word)
+    # A step claims what it does; the start claims nothing.
+    satisfied_s = None if ends is None else [times_s[end + 1] for end in ends if end]
+    return _Course(word, times_s, progress, recurring, satisfied_s)
+
+
+def _violated(agent: str, course: _Course) -> Iterator[str]:
     """Say when the task became impossible to satisfy, and with what."""
-    if progress.violated is None:
+    violated = course.progress.violated
+    if violated is None:
         return
     what = "nothing satisfies it"
-    if progress.violated:
-        letter = ", ".join(sorted(word[progress.violated - 1]))
+    if violated:
+        letter = ", ".join(sorted(course.word[violated - 1]))
         what = f"what was true then: {{{letter}}}"
-    yield f"{agent}: task violated at {times_s[progress.violated]:.3f} s; {what}"
+    yield f"{agent}: task violated at {course.times_s[violated]:.3f} s; {what}"
 
 
 def _misplaced(
@@ -179,9 +204,11 @@ def _hasty(scenario: Scenario, agent: str, events: Sequence[TaskRecord]) -> Iter
 
 
 def _unfounded(
-    agent: str, claimed_s: Sequence[float], satisfied_s: Sequence[float]
+    agent: str, claimed_s: Sequence[float], satisfied_s: Sequence[float] | None
 ) -> Iterator[str]:
-    """Say where claimed and recomputed satisfactions part."""
+    """Say where claimed and recomputed satisfactions part, if those are known."""
+    if satisfied_s is None:
+        return
     for claim_s, truth_s in zip(claimed_s, satisfied_s, strict=False):
         if abs(claim_s - truth_s) > _TIME_SLACK_S:
             yield (
@@ -196,9 +223,25 @@ def _unfounded(
         )
 
 
-def _longest_gap(moments_s: Sequence[float]) -> tuple[float, float]:
-    """Return the longest time between neighbours, and when it began."""
-    return max((later - earlier, earlier) for earlier, later in pairwise(moments_s))
+def _neglected(
+    scenario: Scenario,
+    agent: str,
+    events: Sequence[TaskRecord],
+    recurring: Tree | None,
+    gap: _Gap | None,
+) -> Iterator[str]:
+    """Say when a recurring task went without satisfaction for longer than it may."""
+    if recurring is None or gap is None:
+        return
+    until_s = gap.from_s + gap.length_s
+    # Each attempt that failed may have cost a window.
+    failed = sum(
+        record.event.is_failed_attempt and gap.from_s < record.stamp_ns * 1e-9 <= until_s
+        for record in events
+    )
+    spare_s = failed * scenario.communication.period_s
+    if gap.length_s > _patience_s(recurring, scenario, agent) + spare_s:
+        yield f"{agent}: task not satisfied from {gap.from_s:.3f} s to {until_s:.3f} s"
 
 
 def _patience_s(part: Tree, scenario: Scenario, agent: str) -> float:

@@ -16,12 +16,13 @@ AGENT_TOPICS = {
     "task_event": "tlcomm_msgs/msg/TaskEvent",
     "team_strategy": "tlcomm_msgs/msg/TeamStrategy",
     "plan_offer": "tlcomm_msgs/msg/PlanOffer",
+    "proposal": "tlcomm_msgs/msg/Proposal",
     "best_response": "tlcomm_msgs/msg/BestResponse",
     "confirmation": "tlcomm_msgs/msg/Confirmation",
     "estimate": "tlcomm_msgs/msg/Estimate",
     "round_timing": "tlcomm_msgs/msg/RoundTiming",
 }
-TEAM_TOPICS = ("plan_offer", "best_response", "confirmation")
+TEAM_TOPICS = ("plan_offer", "proposal", "best_response", "confirmation")
 _LATCHED = "team_strategy"
 
 

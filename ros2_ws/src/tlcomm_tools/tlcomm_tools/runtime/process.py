@@ -62,6 +62,7 @@ def _parser() -> argparse.ArgumentParser:
     roles = parser.add_subparsers(required=True, metavar="ROLE")
     agent = roles.add_parser("agent", help="an agent")
     agent.add_argument("--name", required=True)
+    agent.add_argument("--solver", required=True)
     sim = roles.add_parser("sim", help="world and clock")
     sim.add_argument("--rounds", type=int)
     sim.add_argument("--until", type=float, metavar="S")
@@ -84,6 +85,7 @@ def _be_agent(arguments: argparse.Namespace, notifier: Notifier) -> int:
 
     parameters = [
         *_common(arguments),
+        Parameter("solver", value=arguments.solver),
         Parameter("use_sim_time", value=not parse_pace(arguments.pace).is_lockstep),
     ]
     return live(

@@ -2,8 +2,9 @@
 
 ``add_mission_arguments``  what is run, how long, and where to
 ``add_pace_argument``      how simulated time goes on
+``add_solver_argument``    how rounds are solved
 ``positive_int``, ``not_negative_int``, ``positive_float``, ``positive_fraction``   types
-``pace``, ``method``       more types
+``pace``, ``method``, ``solver``  more types
 ``mission_end``            how long to run
 ``print_json``             one document on standard output
 """
@@ -17,14 +18,15 @@ from pathlib import Path
 from typing import Any, Final
 
 from tlcomm_core.errors import InputError
+from tlcomm_core.game.solver import DEFAULT, SOLVERS, Solver
 from tlcomm_core.pace import Pace, parse_pace
 
 __all__ = [
     "LOCKSTEP",
     "METHODS",
-    "SOLVERS",
     "add_mission_arguments",
     "add_pace_argument",
+    "add_solver_argument",
     "method",
     "mission_end",
     "not_negative_int",
@@ -33,11 +35,11 @@ __all__ = [
     "positive_fraction",
     "positive_int",
     "print_json",
+    "solver",
 ]
 
 LOCKSTEP: Final = "lockstep"
 METHODS: Final = ("team",)
-SOLVERS: Final = ("best-response",)
 _LATER_METHODS: Final = ("static", "pairwise", "all-time")
 _DEFAULT_ROUNDS: Final = 5
 _LEAST_FRACTION: Final = Fraction(1, 10**9)
@@ -106,6 +108,14 @@ def method(text: str) -> str:
     return text
 
 
+def solver(text: str) -> Solver:
+    """Read a solver's name."""
+    if text not in SOLVERS:
+        choices = ", ".join(map(repr, SOLVERS))
+        raise argparse.ArgumentTypeError(f"invalid choice: {text!r} (choose from {choices})")
+    return SOLVERS[text]
+
+
 def add_mission_arguments(parser: argparse.ArgumentParser) -> None:
     """Add how long to run, how, and where to write."""
     end = parser.add_mutually_exclusive_group()
@@ -121,13 +131,7 @@ def add_mission_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--method", type=method, default=METHODS[0], metavar="NAME", help="team (the default)"
     )
-    parser.add_argument(
-        "--solver",
-        choices=SOLVERS,
-        default=SOLVERS[0],
-        metavar="NAME",
-        help=f"of the rounds: {', '.join(SOLVERS)}",
-    )
+    add_solver_argument(parser)
     parser.add_argument(
         "--seed",
         type=not_negative_int,
@@ -140,6 +144,17 @@ def add_mission_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         metavar="DIR",
         help="write here (default runs/NAME-METHOD-TIME)",
+    )
+
+
+def add_solver_argument(parser: argparse.ArgumentParser) -> None:
+    """Add how rounds are solved."""
+    parser.add_argument(
+        "--solver",
+        type=solver,
+        default=DEFAULT,
+        metavar="NAME",
+        help=f"of the rounds: {', '.join(SOLVERS)} (default {DEFAULT.name})",
     )
 
 

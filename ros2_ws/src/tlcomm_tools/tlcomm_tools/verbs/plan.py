@@ -69,7 +69,8 @@ def _plan(name: str, site: Site, objective: Objective, *, is_explained: bool) ->
     agent = site.scenario.agents[name]
     begun_s = time.perf_counter()
     travel = travel_of(name, site, Atlas(site.grid, site.region_discs))
-    plan = local_plan(name, site, travel, objective)
+    explanation = explained_plan(name, site, travel, objective) if is_explained else None
+    plan = local_plan(name, site, travel, objective) if explanation is None else explanation.plan
     planning_wall_s = time.perf_counter() - begun_s
     stem, loop = plan.word
     told: dict[str, Any] = {
@@ -85,8 +86,8 @@ def _plan(name: str, site: Site, objective: Objective, *, is_explained: bool) ->
         "word": {"stem": list(map(sorted, stem)), "loop": list(map(sorted, loop))},
         "planning_wall_s": planning_wall_s,
     }
-    if is_explained:
-        told["explanation"] = _explanation(explained_plan(name, site, travel, objective))
+    if explanation is not None:
+        told["explanation"] = _explanation(explanation)
     return told
 
 

@@ -1,22 +1,29 @@
 """Show one round's problem and its solution: what the team decides on at the meeting before it."""
 
 import json
+import math
 from argparse import ArgumentParser, Namespace
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
 from tlcomm_core.errors import InfeasibleRoundError, InputError
-from tlcomm_core.game.algorithm import Solution, solve
-from tlcomm_core.game.document import profile_document, round_document
-from tlcomm_core.game.exact import MOST_AGENTS, Optimum, solve_exactly
+from tlcomm_core.game.algorithm import solve
+from tlcomm_core.game.document import round_document, solved_document
+from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import RoundProblem
+from tlcomm_core.game.solver import Solved, Solver, solve_with
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_tools.rounds import pose_round
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_table
-from tlcomm_tools.verbs.options import not_negative_int, positive_int, print_json
+from tlcomm_tools.verbs.options import (
+    add_solver_argument,
+    not_negative_int,
+    positive_int,
+    print_json,
+)
 
 __all__ = ["EXAMPLE", "add_arguments", "run"]
 
@@ -29,11 +36,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--round", type=positive_int, required=True, metavar="R", help="which round, from 1 on"
     )
-    parser.add_argument(
-        "--exact",
-        action="store_true",
-        help=f"also find the optimum, of at most {MOST_AGENTS} agents, and prove it",
-    )
+    add_solver_argument(parser)
     parser.add_argument("--out", type=Path, metavar="FILE", help="write the JSON document here")
     parser.add_argument(
         "--seed",
@@ -47,26 +50,22 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(options: Namespace) -> Status:
     """Simulate up to the round, solve it and show it."""
     site = Site.from_scenario(load_scenario(options.scenario))
-    if options.exact and len(site.scenario.agents) > MOST_AGENTS:
-        raise InputError(
-            f"--exact: the optimum of {len(site.scenario.agents)} agents takes too long; "
-            f"expected at most {MOST_AGENTS}"
-        )
-    problem = pose_round(site, options.round, options.seed)
+    options.solver.check_team(len(site.scenario.agents))
+    problem = pose_round(site, options.round, options.seed, options.solver)
     try:
-        solution = solve(problem)
+        reference = solve(problem)
+        solved = solve_with(options.solver, problem)
     except InfeasibleRoundError as error:
         raise InputError(f"round {options.round}: {error}") from error
-    optimum = solve_exactly(problem, solution.nash) if options.exact else None
-    document = round_document(problem, solution)
-    if optimum is not None:
-        document["exact"] = profile_document(problem, optimum.profile) | {"bound": optimum.bound_s}
+    document = round_document(problem, reference)
+    if options.solver.propose is not None:
+        document[options.solver.name] = solved_document(problem, solved)
     if options.out is not None:
         _write(options.out, document)
     if options.json:
         print_json(document)
     else:
-        print(_format_round(problem, solution, optimum))
+        print(_format_round(problem, options.solver, solved))
         if options.out is not None:
             print(f"\nwritten to {options.out}")
     return Status.FINE
@@ -79,11 +78,11 @@ def _write(path: Path, document: Mapping[str, Any]) -> None:
         raise InputError(f"--out: can't write {str(path)!r}: {error.strerror}") from error
 
 
-def _format_round(problem: RoundProblem, solution: Solution, optimum: Optimum | None) -> str:
+def _format_round(problem: RoundProblem, solver: Solver, solved: Solved) -> str:
     opens_s, closes_s = problem.window_s
     rows = []
-    initial = problem.strategies(solution.initial)
-    final = problem.strategies(solution.nash if optimum is None else optimum.profile)
+    initial = problem.strategies(solved.initial)
+    final = problem.strategies(solved.solution.nash)
     for before, after in zip(initial, final, strict=True):
         rows.append(
             (
@@ -100,15 +99,18 @@ def _format_round(problem: RoundProblem, solution: Solution, optimum: Optimum | 
     return (
         f"round {problem.round}, t_c in [{opens_s:g} s, {closes_s:g} s)\n"
         f"  {len(problem.locations_m)} locations, range {problem.range_m:g} m\n"
-        f"  Φ(S⁰) = {solution.potentials_s[0]:.3f} s, Φ = {solution.potentials_s[-1]:.3f} s "
-        f"after {solution.iterations} moves\n"
-        f"{_format_optimum(optimum)}\n"
-        f"{format_table(header, rows)}"
+        f"  Φ(S⁰) = {potential(initial, opens_s):.3f} s, "
+        f"{_format_outcome(problem, solver, solved)}\n"
+        f"\n{format_table(header, rows)}"
     )
 
 
-def _format_optimum(optimum: Optimum | None) -> str:
-    if optimum is None:
-        return ""
-    least_s, bound_s = optimum.potential_s, optimum.bound_s
-    return f"  optimum Φ = {least_s:.3f} s, as shown; none is below {bound_s:.3f} s\n"
+def _format_outcome(problem: RoundProblem, solver: Solver, solved: Solved) -> str:
+    least_s, moves = solved.solution.potentials_s[-1], solved.solution.iterations
+    if solved.proposer is None:
+        return f"Φ = {least_s:.3f} s after {moves} moves by {solver.name}"
+    proven = f"; none is below {solved.bound_s:.3f} s" if math.isfinite(solved.bound_s) else ""
+    return (
+        f"Φ = {least_s:.3f} s by {solver.name}: "
+        f"{problem.agents[solved.proposer]}'s proposal and {moves} moves{proven}"
+    )

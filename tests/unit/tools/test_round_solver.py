@@ -12,7 +12,7 @@ SCENARIOS = Path(__file__).parents[3] / "scenarios"
 
 def test_the_optimum_is_beside_the_equilibrium(capsys: pytest.CaptureFixture[str]) -> None:
     """In the same form under its own name, with a proof, and no worse."""
-    arguments = ["round", str(SCENARIOS / "corridor.yaml"), "--round", "2", "--exact"]
+    arguments = ["round", str(SCENARIOS / "corridor.yaml"), "--round", "2", "--solver", "exact"]
     assert main([*arguments, "--json"]) == 0
     document = json.loads(capsys.readouterr().out)
     exact = document["exact"]
@@ -20,11 +20,11 @@ def test_the_optimum_is_beside_the_equilibrium(capsys: pytest.CaptureFixture[str
     assert exact["bound"] <= exact["potential"] <= document["nash"]["potential"]
     assert exact["potential"] - exact["bound"] <= 1e-6
     assert main(arguments) == 0
-    assert f"optimum Φ = {exact['potential']:.3f} s" in capsys.readouterr().out
+    assert f"Φ = {exact['potential']:.3f} s by exact" in capsys.readouterr().out
 
 
 def test_too_many_agents_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     """One line says how many there are, and how many may be."""
     path = SCENARIOS / "warehouse.yaml"
-    assert main(["round", str(path), "--round", "1", "--exact"]) == 2
+    assert main(["round", str(path), "--round", "1", "--solver", "exact"]) == 2
     assert "20 agents" in capsys.readouterr().err

@@ -1,0 +1,178 @@
+"""Which places are linked, so that agents at them hear each other.
+
+``within_range``   which places lie within range of which
+``Links``          the links between all places of a map
+``Neighbourhood``  the same as a table, for sweeps over all places
+"""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["LINK_TOLERANCE_M", "Links", "Neighbourhood", "Sight", "within_range"]
+
+LINK_TOLERANCE_M: Final = 1e-9
+"""Rounding that a link is forgiven: two places exactly R apart are linked."""
+
+Sight = Callable[[int, NDArray[np.intp]], NDArray[np.bool_]]
+"""Tells which of some places are in sight of one; as much there as back."""
+
+
+def within_range(
+    from_m: NDArray[np.float64], to_m: NDArray[np.float64], range_m: float
+) -> NDArray[np.bool_]:
+    """Tell which places lie within range of which.
+
+    Args:
+        from_m: [A, 2] places.
+        to_m: [B, 2] places.
+        range_m: R.
+
+    Returns:
+        [A, B], fresh.
+    """
+    east_m = from_m[:, None, 0] - to_m[None, :, 0]
+    north_m = from_m[:, None, 1] - to_m[None, :, 1]
+    # No hypot: products, sums and square roots are the same on every machine, libm isn't.
+    distance_m: NDArray[np.float64] = np.sqrt(east_m * east_m + north_m * north_m)
+    return distance_m <= range_m + LINK_TOLERANCE_M
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Neighbourhood:
+    """Which places are linked, as a table.
+
+    Attributes:
+        places: int[Z, D] the places linked to each, itself among them; shorter rows are filled
+            up with the place itself.
+    """
+
+    places: NDArray[np.intp]
+
+    def among(self, kept: NDArray[np.intp]) -> "Neighbourhood":
+        """Return the neighbourhood of some of the places, which keep their order."""
+        index = np.full(len(self.places), -1, dtype=np.intp)
+        index[kept] = np.arange(len(kept))
+        places = index[self.places[kept]]
+        return Neighbourhood(np.where(places < 0, np.arange(len(kept))[:, None], places))
+
+    def least(self, cost: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the least of a cost float[Z] over the places linked to each, float[Z]."""
+        least: NDArray[np.float64] = cost[self.places].min(axis=1)
+        return least
+
+
+class Links:
+    """The links between all places of a map: in range and, where that counts, in sight.
+
+    Immutable; what is asked for is computed once. A place is linked to itself.
+
+    Attributes:
+        locations_m: float[Z, 2] every place.
+        range_m: R, the range that places are planned with.
+
+    Source: E(Z_c) in Section IV-B1 of the paper.
+    """
+
+    def __init__(
+        self, locations_m: NDArray[np.float64], range_m: float, sight: Sight | None = None
+    ) -> None:
+        """Link the places that are at most ``range_m`` apart and, if given, in sight.
+
+        Args:
+            locations_m: float[Z, 2] every place.
+            range_m: R.
+            sight: which places in range of a place are in its sight; ``None`` for all.
+        """
+        self.locations_m: Final = locations_m
+        self.range_m: Final = range_m
+        self._sight = sight
+        self._near: dict[int, NDArray[np.intp]] = {}
+        self._near_sets: dict[int, frozenset[int]] = {}
+
+    def __len__(self) -> int:
+        """Return the number of places Z."""
+        return len(self.locations_m)
+
+    def near(self, place: int) -> NDArray[np.intp]:
+        """Return the places linked to one, itself among them, ascending; read-only.
+
+        Cost: O(Z) when it is first asked for.
+        """
+        near = self._near.get(place)
+        if near is None:
+            here_m = self.locations_m[place : place + 1]
+            near = np.flatnonzero(within_range(here_m, self.locations_m, self.range_m)[0])
+            if self._sight is not None:
+                near = near[self._sight(place, near) | (near == place)]
+            near.setflags(write=False)
+            self._near[place] = near
+        return near
+
+    def place_at(self, x_m: float, y_m: float) -> int | None:
+        """Return the place that lies exactly there, the first of several; None if none does."""
+        return self._places.get((x_m, y_m))
+
+    def components(self, places: Iterable[int]) -> tuple[frozenset[int], ...]:
+        """Return the connected components of the graph over some places, each as its places."""
+        left = set(places)
+        parts: list[frozenset[int]] = []
+        while left:
+            frontier = [left.pop()]
+            part = set(frontier)
+            while frontier:
+                reached = self._near_set(frontier.pop()) & left
+                left -= reached
+                part |= reached
+                frontier += reached
+            parts.append(frozenset(part))
+        return tuple(parts)
+
+    def is_connected(self, places: Iterable[int]) -> bool:
+        """Tell whether some places form one connected graph; none and one do."""
+        return len(self.components(places)) <= 1
+
+    def connecting(self, others: Sequence[int]) -> NDArray[np.bool_]:
+        """Tell at which places one more agent makes the team connected.
+
+        Args:
+            others: the places of all the others, possibly none.
+
+        Returns:
+            [Z], fresh: whether the place is linked to every component of the others' graph.
+
+        Source: Υ_i in Section IV-B3 of the paper, without its ball.
+        Cost: O(Z) for each component.
+        """
+        mask = np.ones(len(self), dtype=np.bool_)
+        for part in self.components(others):
+            touched = np.zeros(len(self), dtype=np.bool_)
+            touched[np.concatenate([self.near(place) for place in part])] = True
+            mask &= touched
+        return mask
+
+    @cached_property
+    def neighbourhood(self) -> Neighbourhood:
+        """All links as a table. Cost: O(Z²)."""
+        rows = [self.near(place) for place in range(len(self))]
+        degree = max((len(near) for near in rows), default=1)
+        table = np.repeat(np.arange(len(self), dtype=np.intp)[:, None], degree, axis=1)
+        for place, near in enumerate(rows):
+            table[place, : len(near)] = near
+        table.setflags(write=False)
+        return Neighbourhood(table)
+
+    @cached_property
+    def _places(self) -> dict[tuple[float, float], int]:
+        points = self.locations_m.tolist()
+        return {(x, y): place for place, (x, y) in reversed([*enumerate(points)])}
+
+    def _near_set(self, place: int) -> frozenset[int]:
+        near = self._near_sets.get(place)
+        if near is None:
+            near = self._near_sets[place] = frozenset(self.near(place).tolist())
+        return near
