@@ -66,14 +66,29 @@ def test_repetitions_become_rarer_while_members_are_missing(meeting: Meeting) ->
     negotiation = negotiation_of(meeting)
     negotiation.proceed(START_S)
     intervals_s, now_s = [], START_S
-    for _ in range(7):
+    for _ in range(9):
         intervals_s.append(round(negotiation.next_need_s - now_s, 9))
         now_s = negotiation.next_need_s
         assert len(messages_in(negotiation, now_s)) == 1
-    assert intervals_s == [0.1, 0.2, 0.4, 0.8, 1.6, 1.6, 1.6]
+    assert intervals_s == [0.0125, 0.025, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 1.6]
     negotiation.hear(PlanOffer("agent_01", meeting.round, ("agent_01",), meeting.offers[1:2]))
     negotiation.proceed(now_s)
     assert negotiation.next_need_s == now_s + meeting.team.retry_s
+
+
+def test_unanswered_exchanges_become_rarer_too(meeting: Meeting) -> None:
+    """Much less so: a neighbour that is only slow isn't asked over and over, a lost word is soon
+    mended.
+    """
+    negotiation = negotiation_of(meeting)
+    negotiation.hear(all_offers(meeting, 1))
+    negotiation.proceed(START_S)
+    intervals_s, now_s = [], START_S
+    for _ in range(6):
+        intervals_s.append(round(negotiation.next_need_s - now_s, 9))
+        now_s = negotiation.next_need_s
+        assert messages_in(negotiation, now_s)
+    assert intervals_s == [0.0125, 0.025, 0.05, 0.1, 0.1, 0.1]
 
 
 def test_nothing_is_repeated_before_its_time(meeting: Meeting) -> None:

@@ -38,11 +38,12 @@ same offers by the same exchanges. And where anybody agrees, nobody has given up
 To confirm is to promise to be there: where each goes if it never learns whether all have
 confirmed, and why the team meets again, is said in ``whereabouts``.
 
-Liveness: what a neighbour may still need is repeated every ``retry_s`` until its messages show
-that it is past needing it. An offer or a confirmation is shown by being relayed, an exchange of
-the consensus by the neighbour's next one. So while the team stays connected, each phase ends. Who
-sees that all its neighbours hold all confirmations is *settled* and falls silent; a neighbour that
-can't see the same of it still repeats its last exchanges, and that it answers.
+Liveness: what a neighbour may still need is repeated, at first after ``retry_s`` and then ever more
+rarely up to a bound, until its messages show that it is past needing it. An offer or a confirmation
+is shown by being relayed, an exchange of the consensus by the neighbour's next one. So while the
+team stays connected, each phase ends. Who sees that all its neighbours hold all confirmations is
+*settled* and falls silent; a neighbour that can't see the same of it still repeats its last
+exchanges, and that it answers.
 """
 
 import math
@@ -301,9 +302,12 @@ class Negotiation:
         )
 
     def _repetitions(self) -> list[Message]:
+        # What isn't lost but slow to be answered must not be said over and over. Members may take
+        # most of a window to arrive, a neighbour much less to go one exchange on.
+        is_gathering = self._improving is None
+        most_s = self._team.patience_s if is_gathering else self._team.longest_retry_s
+        self._retry_s = min(2.0 * self._retry_s, most_s)
         if self._improving is None:
-            # Members may take most of a window to arrive: ask ever more rarely until something new.
-            self._retry_s = min(2.0 * self._retry_s, self._team.patience_s)
             return [self._gathering.repetition()]
         if self._confirming is None:
             return [*self._offers_lacking(self._improving), *self._improving.unsuperseded]

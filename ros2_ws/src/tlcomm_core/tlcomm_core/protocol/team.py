@@ -20,8 +20,10 @@ class Team:
             by its tolerance.
         period_s: T_c.
         duration_s: D_c.
-        retry_s: a message not known to be superseded is repeated after this time.
-        patience_s: while members are missing, repetitions become rarer up to this interval.
+        retry_s: a message not known to be superseded is repeated after this time, and then each
+            time after twice as long until there is something new to say.
+        longest_retry_s: the longest of these times.
+        patience_s: the same while members are missing.
         linger_s: after the meeting, whoever holds what a neighbour may lack stays for so long.
         solver: how next meetings are found.
         max_iterations: K of Algorithm 1.
@@ -32,7 +34,8 @@ class Team:
     period_s: float
     duration_s: float
     solver: Solver = DEFAULT
-    retry_s: float = 0.1
+    retry_s: float = 0.0125
+    longest_retry_s: float = 0.1
     patience_s: float = 1.6
     linger_s: float = 0.5
     max_iterations: int = 1000
