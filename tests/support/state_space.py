@@ -20,7 +20,7 @@ only copied and told something once for each of their own states; the team's are
 
 import copy
 import math
-from collections.abc import Callable, Hashable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -30,7 +30,7 @@ import numpy as np
 
 from support.meetings import Meeting, sample_meeting
 from tlcomm_core.game.solver import BEST_RESPONSE, Solver
-from tlcomm_core.protocol.actions import SendMessage
+from tlcomm_core.protocol.actions import Action, SendMessage
 from tlcomm_core.protocol.messages import Message, PlanOffer
 from tlcomm_core.protocol.negotiation import Negotiation
 from tlcomm_core.protocol.whereabouts import Ending, Whereabouts
@@ -106,7 +106,6 @@ class Space:
         self._messages: list[Message] = []
         self._by_message: dict[Message, int] = {}
         self._turns: list[tuple[int, int] | None] = []
-        self._repeated: list[int] = []
         self._heard: list[dict[int, tuple[int, int]]] = []
         self._audible: list[int] = [0] * len(self._names)
         fresh = [
@@ -166,30 +165,36 @@ class Space:
         for index, agent in enumerate(team):
             after, words = self._turn(agent)
             if after != agent or words | said != said:
-                yield index, after, said | words | self._repeated[after]
+                yield index, after, said | words
             for number in _bits(said & self._audible[index]):
                 after, words = self._hear(agent, number)
                 if after != agent:
-                    yield index, after, said | words | self._repeated[after]
+                    yield index, after, said | words
 
     def _turn(self, agent: int) -> tuple[int, int]:
-        """Return an agent's state after its turn, and what it says in it."""
+        """Return an agent's state after its turn, and what it says in it and then repeats."""
         known = self._turns[agent]
         if known is None:
             moved = self._copy(agent)
-            words = self._mask(moved.proceed(0.0))
-            known = self._turns[agent] = (self._intern(moved), words)
+            known = self._turns[agent] = self._after_turn(moved)
         return known
 
     def _hear(self, agent: int, number: int) -> tuple[int, int]:
-        """Return an agent's state after hearing a message, and what it says to that at once."""
+        """Return an agent's state after hearing a message, and what it says if it is prompt."""
         heard = self._heard[agent]
         if number not in heard:
             moved = self._copy(agent)
             moved.hear(self._messages[number])
-            words = self._mask(moved.proceed(0.0)) if self._is_prompt else 0
-            heard[number] = (self._intern(moved), words)
+            prompt = self._is_prompt
+            heard[number] = self._after_turn(moved) if prompt else (self._intern(moved), 0)
         return heard[number]
+
+    def _after_turn(self, agent: Negotiation) -> tuple[int, int]:
+        """Let an agent take its turn; return its state, and what it says and repeats then."""
+        words = [*agent.proceed(0.0)]
+        if agent.next_need_s < math.inf:
+            words += [SendMessage(message) for message in agent._repetitions()]
+        return self._intern(agent), self._mask(words)
 
     def _copy(self, agent: int) -> Negotiation:
         return copy.deepcopy(self._agents[agent], dict(self._shared))
@@ -208,15 +213,11 @@ class Space:
             self._agents.append(agent)
             self._turns.append(None)
             self._heard.append({})
-            repeats = agent.next_need_s < math.inf
-            words = [SendMessage(message) for message in agent._repetitions()] if repeats else []
-            self._repeated.append(self._mask(words))
         return number
 
-    def _mask(self, actions: object) -> int:
+    def _mask(self, actions: Iterable[Action]) -> int:
         """Return the set of messages that actions say, a bit for each."""
         mask = 0
-        assert isinstance(actions, tuple | list)
         for action in actions:
             if isinstance(action, SendMessage):
                 number = self._by_message.setdefault(action.message, len(self._messages))
@@ -261,7 +262,7 @@ class Space:
         for agent in team:
             moved, words = self._turn(agent)
             after.append(moved)
-            fresh |= words | self._repeated[moved]
+            fresh |= words
         while fresh:
             said, heard, fresh = said | fresh, fresh, 0
             for index in range(len(after)):
