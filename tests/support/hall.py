@@ -88,18 +88,21 @@ class LoneAgent:
     """A brain on a vehicle that does what it is told, to the bit.
 
     Attributes:
+        site: where it is, unless that is the hall with ``count`` agents.
         done: all actions with their times, in order.
     """
 
     name: str
     count: int
     faults: Faults | None = None
+    site: Site | None = None
     now_s: float = 0.0
     done: list[tuple[float, Action]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         """Stand at the start, and see it."""
-        self.member = make_member(self.name, self.count, faults=self.faults)
+        site = self.site or hall(self.count, self.faults)
+        self.member = create(self.name, site, Pacing.EVENT, Atlas(site.grid, site.region_discs))
         self.brain = self.member._brain
         self.pose = Pose(*STARTS[self.name])
         self.velocity = Drive(0.0, 0.0)

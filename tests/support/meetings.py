@@ -22,7 +22,7 @@ from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import InfeasibleRoundError
 from tlcomm_core.game.initial import initial_profile
 from tlcomm_core.game.offer import MemberOffer, PlannedStop
-from tlcomm_core.game.potential import evaluate, potential
+from tlcomm_core.game.potential import evaluate
 from tlcomm_core.game.problem import RoundProblem
 from tlcomm_core.game.sample import sample_problem
 from tlcomm_core.game.solver import solve_with
@@ -224,6 +224,6 @@ def reference(meeting: Meeting) -> TeamStrategy:
         problem.strategies(solved.solution.nash),
         opens_s,
         solved.solution.iterations,
-        potential(problem.strategies(solved.initial), opens_s),
+        solved.initial_potential_s,
         solved.bound_s if math.isfinite(solved.bound_s) else None,
     )

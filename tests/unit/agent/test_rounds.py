@@ -8,6 +8,7 @@ import pytest
 from support.hall import hall, make_member
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.game.offer import MemberOffer, next_stops
+from tlcomm_core.game.rules import Rules
 from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.workspace.atlas import Atlas
@@ -37,6 +38,17 @@ def test_a_problem_has_the_window_and_the_planned_range(offer: MemberOffer) -> N
     assert problem.range_m == 0.96
     assert problem.agents == ("one", "two")
     np.testing.assert_array_equal(problem.locations_m, ATLAS.grid.locations_m)
+
+
+def test_the_teams_rules_and_margin_hold(offer: MemberOffer) -> None:
+    """They are the problem's, and nobody arrives in the margin."""
+    strict = replace(TEAM, rules=Rules(0.5, 1), margin_s=12.0)
+    problem = MeetingRounds(ATLAS, strict, 0.0).problem(1, 3.0, [offer])
+    (free,) = ROUNDS.problem(1, 3.0, [offer]).candidates
+    (own,) = problem.candidates
+    assert problem.rules == Rules(0.5, 1)
+    assert own.arrival_s[np.isfinite(own.arrival_s)].max() < 60.0 - 12.0
+    assert free.arrival_s[np.isfinite(free.arrival_s)].max() > 60.0 - 12.0
 
 
 def test_each_members_own_speeds_count(offer: MemberOffer) -> None:

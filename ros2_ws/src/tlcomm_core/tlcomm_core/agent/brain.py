@@ -8,7 +8,7 @@ What it is doing is one of four activities, in this cycle (Section IV-C of the p
 Meeting    at its place: negotiate the next meeting; leave at t_c + D_c. (``meeting``: later, or for
            the last meeting's place, if the network is so bad that there is no agreement by then.)
 Driving    to the next step of its plan, or to the next place of meeting; anew, from where it is,
-           when something has put it off its way.
+           when something has put it off its way, be it into what its task forbids.
 Acting     at a step's region, until the step is done, or begun anew since its action failed.
            Steps go on, through prefix and suffix, up to h; then to z, and Meeting again.
            (``itinerary``: up to fewer, if failures have taken the time.)

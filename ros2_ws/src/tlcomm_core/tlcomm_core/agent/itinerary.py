@@ -22,6 +22,7 @@ from tlcomm_core.game.offer import PlannedStop, next_stops
 from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.geometry import Pose
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
+from tlcomm_core.workspace.retreat import Retreat
 from tlcomm_core.workspace.travel import Leg, TravelTimes
 
 __all__ = ["Itinerary"]
@@ -48,6 +49,7 @@ class Itinerary:
         self.done = -1
         self._plan = plan
         self._travel: Final = travel
+        self._retreat: Final = Retreat(travel)
         self._retries: Final = retries
         self._meeting: Strategy | None = None
         self._meeting_s = 0.0
@@ -91,6 +93,7 @@ class Itinerary:
             pose: where the agent has set out from.
         """
         meeting = self._agreed()
+        pose, _ = self._let_out(pose)
         for index in range(self.done + 1, meeting.task_index + 1):
             pose = self._travel.leg_to(pose, self._plan.step(index).location).arrival
         return self.leg(pose, meeting).arrival
@@ -113,6 +116,7 @@ class Itinerary:
     def can_go_on(self, pose: Pose) -> bool:
         """Return whether a way leads from a pose to what is planned."""
         grid = self._travel.grid
+        pose, _ = self._let_out(pose)
         here = grid.location_at(pose.x_m, pose.y_m)
         return here is not None and grid.components[here] == grid.components[self.step.location]
 
@@ -132,10 +136,16 @@ class Itinerary:
         return None if is_possible else meeting
 
     def leg(self, pose: Pose, meeting: Strategy | None) -> Leg:
-        """Return the way to a meeting or, with ``None``, to the next step."""
+        """Return the way to a meeting or, with ``None``, to the next step.
+
+        It begins with the way out of what the task forbids, if something has put the agent there.
+        """
+        pose, retreat = self._let_out(pose)
         if meeting is None:
-            return self._travel.leg_to(pose, self.step.location)
-        return self._travel.leg_from(pose, self._place(meeting))
+            onward = self._travel.leg_to(pose, self.step.location)
+        else:
+            onward = self._travel.leg_from(pose, self._place(meeting))
+        return onward if retreat is None else _joined(retreat, onward)
 
     def next_stops(self, pose: Pose, horizon_s: float) -> tuple[PlannedStop, ...]:
         """Return the next steps with the times and poses at which they are finished.
@@ -145,6 +155,11 @@ class Itinerary:
             horizon_s: time from the departure to the end of the window to plan.
         """
         return next_stops(self._plan, self.done + 1, pose, self._travel, horizon_s)
+
+    def _let_out(self, pose: Pose) -> tuple[Pose, Leg | None]:
+        """Return where the plan goes on from, and the way out that leads there, if it takes one."""
+        retreat = self._retreat.leg(pose, self.step.location)
+        return (pose, None) if retreat is None else (retreat.arrival, retreat)
 
     def _has_time(self, pose: Pose, now_s: float) -> bool:
         """Return whether the next step can be done before the meeting."""
@@ -163,3 +178,13 @@ class Itinerary:
         if place is None:
             raise LocalMisuseError(f"the agreed place of {meeting!r} isn't free")
         return place
+
+
+def _joined(leg: Leg, onward: Leg) -> Leg:
+    """Return a leg and the one that begins where it arrives as one."""
+    return Leg(
+        waypoints_m=leg.waypoints_m + onward.waypoints_m,
+        duration_s=leg.duration_s + onward.duration_s,
+        distance_m=leg.distance_m + onward.distance_m,
+        arrival=onward.arrival,
+    )

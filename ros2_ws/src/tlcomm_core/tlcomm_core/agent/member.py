@@ -18,6 +18,7 @@ from tlcomm_core.agent.planner import Planner, local_plan, plan_for
 from tlcomm_core.agent.radio import Radio
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import PlanningError
+from tlcomm_core.game.rules import Rules
 from tlcomm_core.game.solver import DEFAULT, Solver
 from tlcomm_core.geometry import Pose
 from tlcomm_core.planning.plan import LocalPlan
@@ -134,6 +135,8 @@ def team_of(site: Site, solver: Solver = DEFAULT) -> Team:
         planned_range_m=site.planned_range_m,
         period_s=communication.period_s,
         duration_s=communication.duration_s,
+        rules=Rules(communication.separation_m, communication.resilience),
+        margin_s=communication.margin_s,
         solver=solver,
     )
 

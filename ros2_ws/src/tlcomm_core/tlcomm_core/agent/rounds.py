@@ -49,8 +49,12 @@ class MeetingRounds:
             window_s=window_s,
             links=self._links,
             candidates=tuple(
-                candidates(offer, departure_s, window_s, self._travel_of(offer)) for offer in offers
+                candidates(
+                    offer, departure_s, window_s, self._travel_of(offer), self._team.margin_s
+                )
+                for offer in offers
             ),
+            rules=self._team.rules,
         )
 
     def _travel_of(self, offer: MemberOffer) -> TravelTimes:

@@ -48,15 +48,14 @@ def cheapest_placement(costs: NDArray[np.float64], neighbourhood: Neighbourhood)
     Cost: O(3^N·Z + 2^N·Z·D) time, O(2^N·Z) memory.
     """
     count = len(costs)
-    table = np.empty((1 << count, costs.shape[1]))
-    reached = np.empty_like(table)
-    for subset in range(1, 1 << count):
-        if subset & (subset - 1):
-            parts = _parts(subset)
-            table[subset] = (table[parts] + reached[subset ^ parts]).min(axis=0)
-        else:
-            table[subset] = costs[subset.bit_length() - 1]
-        reached[subset] = neighbourhood.least(table[subset])
+    table = np.full((1 << count, costs.shape[1]), np.inf)
+    reached = np.full_like(table, np.inf)
+    table[1 << np.arange(count)] = costs
+    for layer in _layers(count):
+        for subset in layer.tolist():
+            if subset & (subset - 1):
+                table[subset] = _cheapest_split(table, reached, subset)
+        reached[layer] = neighbourhood.least(table[layer])
     everybody = (1 << count) - 1
     root = int(np.argmin(table[everybody]))
     locations = [root] * count
@@ -64,6 +63,33 @@ def cheapest_placement(costs: NDArray[np.float64], neighbourhood: Neighbourhood)
     if np.isfinite(cost):
         _trace(table, reached, neighbourhood, everybody, root, locations)
     return Placement(cost, tuple(locations))
+
+
+def _cheapest_split(
+    table: NDArray[np.float64], reached: NDArray[np.float64], subset: int
+) -> NDArray[np.float64]:
+    """Return the least of g(A, z) + min g(B, z') over all splits of a set, float[Z].
+
+    With an axis for each agent, the parts A are a view of the table, and what they leave is the
+    same view of the other one, backwards: nothing is copied before it is added. The empty part and
+    the whole are +inf as yet.
+    """
+    count = len(table).bit_length() - 1
+    members = [subset >> agent & 1 for agent in reversed(range(count))]
+    inside = tuple(slice(None) if is_member else 0 for is_member in members)
+    backwards = (slice(None, None, -1),) * sum(members)
+    shape = (2,) * count + table.shape[1:]
+    totals = table.reshape(shape)[inside] + reached.reshape(shape)[inside][backwards]
+    least: NDArray[np.float64] = totals.reshape(-1, table.shape[1]).min(axis=0)
+    return least
+
+
+@cache
+def _layers(count: int) -> tuple[NDArray[np.intp], ...]:
+    """Return the subsets of each size from 1 on, as bit masks."""
+    subsets = np.arange(1 << count)
+    sizes = np.array([subset.bit_count() for subset in range(1 << count)])
+    return tuple(subsets[sizes == size] for size in range(1, count + 1))
 
 
 @cache
@@ -92,8 +118,7 @@ def _trace(
         parts = _parts(subset)
         part = int(parts[np.argmin(table[parts, place] + reached[subset ^ parts, place])])
         rest = subset ^ part
-        near = neighbourhood.places[place]
-        onward = int(near[np.argmin(table[rest, near])])
+        onward = neighbourhood.cheapest(table[rest], place)
         _trace(table, reached, neighbourhood, rest, onward, locations)
         subset = part
     locations[subset.bit_length() - 1] = place

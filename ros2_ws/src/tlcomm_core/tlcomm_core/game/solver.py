@@ -91,12 +91,14 @@ class Solved:
 
     Attributes:
         initial: S⁰.
+        initial_potential_s: its Φ.
         solution: from S⁰, or from the best proposal, to the equilibrium.
         proposer: index of the agent whose proposal was the best; ``None`` without proposals.
         bound_s: no team strategy has a lower Φ; −inf if nothing is proven.
     """
 
     initial: Profile
+    initial_potential_s: float
     solution: Solution
     proposer: int | None
     bound_s: float
@@ -114,13 +116,15 @@ def solve_with(solver: Solver, problem: RoundProblem) -> Solved:
     """
     initial = initial_profile(problem)
     if solver.propose is None:
-        return Solved(initial, improve(problem, initial), None, -math.inf)
+        solution = improve(problem, initial)
+        return Solved(initial, solution.potentials_s[0], solution, None, -math.inf)
     opens_s, _ = problem.window_s
     proposals = [solver.propose(problem, initial, agent) for agent in range(len(problem.agents))]
     costs_s = [potential(problem.strategies(own.profile), opens_s) for own in proposals]
     best = min(range(len(proposals)), key=lambda agent: (costs_s[agent], problem.agents[agent]))
     return Solved(
         initial=initial,
+        initial_potential_s=potential(problem.strategies(initial), opens_s),
         solution=improve(problem, proposals[best].profile, Scope.EVERYWHERE),
         proposer=best,
         bound_s=min(own.bound_s for own in proposals),

@@ -5,6 +5,8 @@
 
 from dataclasses import dataclass
 
+from tlcomm_core.game.candidates import ROUNDING_S
+from tlcomm_core.game.rules import PLAIN_RULES, Rules
 from tlcomm_core.game.solver import DEFAULT, Solver
 
 __all__ = ["Team"]
@@ -27,6 +29,8 @@ class Team:
         linger_s: after the meeting, whoever holds what a neighbour may lack stays for so long.
         solver: how next meetings are found.
         max_iterations: K of Algorithm 1.
+        rules: what the places of meetings must be, beside connected.
+        margin_s: how long before its window's end a meeting begins at the latest.
     """
 
     members: frozenset[str]
@@ -39,6 +43,8 @@ class Team:
     patience_s: float = 1.6
     linger_s: float = 0.5
     max_iterations: int = 1000
+    rules: Rules = PLAIN_RULES
+    margin_s: float = ROUNDING_S
 
     def opens_s(self, round_: int) -> float:
         """Return when a round's window opens, r·T_c."""

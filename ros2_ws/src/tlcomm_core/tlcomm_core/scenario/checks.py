@@ -16,6 +16,7 @@ from tlcomm_core.ltl.parser import explain, parse
 from tlcomm_core.scenario.conditions import check_conditions
 from tlcomm_core.scenario.document import Place
 from tlcomm_core.scenario.finding import Finding, did_you_mean
+from tlcomm_core.scenario.meetings import check_meetings
 from tlcomm_core.scenario.model import Agent, Scenario, Workspace
 from tlcomm_core.scenario.site import grid_of, region_location
 from tlcomm_core.scenario.task import read_automaton
@@ -38,6 +39,7 @@ def check(scenario: Scenario) -> list[Finding]:
     findings = [*_timing(scenario), *_extent(scenario.workspace), *_names(scenario)]
     if findings:
         return findings
+    findings += check_meetings(scenario)
     grid = grid_of(scenario.workspace)
     findings += _regions(scenario.workspace, grid)
     findings += _starts(scenario, grid)

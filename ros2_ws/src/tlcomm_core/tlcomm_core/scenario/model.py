@@ -73,12 +73,25 @@ class Workspace(_Section):
 
 
 class Communication(_Section):
-    """Radio range R, period T_c and duration D_c of the team's communication."""
+    """When and how the team meets.
+
+    Attributes:
+        range_m: radio range R.
+        period_s: T_c.
+        duration_s: D_c.
+        hop_latency_s: from sending a message to its arrival, in lock step.
+        separation_m: the least distance between two agents' places at a planned meeting.
+        resilience: how many agents may fail so that the others still are connected.
+        margin_s: how long before its window's end a meeting begins at the latest.
+    """
 
     range_m: Positive
     period_s: Positive
     duration_s: Positive
     hop_latency_s: Positive = 0.005
+    separation_m: NotNegative = 0.0
+    resilience: Annotated[int, Field(ge=0, le=1)] = 0
+    margin_s: NotNegative = 0.001
 
 
 class Drive(_Section):

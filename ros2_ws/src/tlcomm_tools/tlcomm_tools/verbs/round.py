@@ -10,11 +10,11 @@ from typing import Any, Final
 from tlcomm_core.errors import InfeasibleRoundError, InputError
 from tlcomm_core.game.algorithm import solve
 from tlcomm_core.game.document import round_document, solved_document
-from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import RoundProblem
 from tlcomm_core.game.solver import Solved, Solver, solve_with
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.site import Site
+from tlcomm_tools.meeting_reasons import explanation_document, format_explanation
 from tlcomm_tools.rounds import pose_round
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_table
@@ -37,6 +37,11 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--round", type=positive_int, required=True, metavar="R", help="which round, from 1 on"
     )
     add_solver_argument(parser)
+    parser.add_argument(
+        "--explain",
+        action="store_true",
+        help="also say what each agent pays, what else it could do, and how Φ came down",
+    )
     parser.add_argument("--out", type=Path, metavar="FILE", help="write the JSON document here")
     parser.add_argument(
         "--seed",
@@ -60,12 +65,16 @@ def run(options: Namespace) -> Status:
     document = round_document(problem, reference)
     if options.solver.propose is not None:
         document[options.solver.name] = solved_document(problem, solved)
+    if options.explain:
+        document["explanation"] = explanation_document(problem, solved)
     if options.out is not None:
         _write(options.out, document)
     if options.json:
         print_json(document)
     else:
         print(_format_round(problem, options.solver, solved))
+        if options.explain:
+            print(f"\n{format_explanation(problem, solved)}")
         if options.out is not None:
             print(f"\nwritten to {options.out}")
     return Status.FINE
@@ -99,7 +108,7 @@ def _format_round(problem: RoundProblem, solver: Solver, solved: Solved) -> str:
     return (
         f"round {problem.round}, t_c in [{opens_s:g} s, {closes_s:g} s)\n"
         f"  {len(problem.locations_m)} locations, range {problem.range_m:g} m\n"
-        f"  Φ(S⁰) = {potential(initial, opens_s):.3f} s, "
+        f"  Φ(S⁰) = {solved.initial_potential_s:.3f} s, "
         f"{_format_outcome(problem, solver, solved)}\n"
         f"\n{format_table(header, rows)}"
     )
