@@ -14,6 +14,9 @@ IMPROVING   Over the meeting graph, which is known to all from the offers' place
 CONFIRMING  The search is over; everyone floods that it holds the result. (``confirming``)
 AGREED      All confirmations are known: the team strategy is held as agreed.
 
+Who hasn't confirmed a round until D_c into its window (``Team.confirmable_until_s``) gives it up
+for good: it says and hears nothing of that round any more.
+
 Which messages matter in which phase (rows: what is heard of the round being planned):
 
               GATHERING      IMPROVING      CONFIRMING     AGREED
@@ -29,13 +32,18 @@ outside the team: foreign. Whatever is malformed or contradicts what was heard b
 nothing.
 
 Safety: an agent confirms one team strategy per round only, and holds it as agreed only when all
-members have confirmed the same; so no two agents ever hold different strategies for one round.
+members have confirmed the same; so no two agents ever hold different strategies for one round. More
+than that, all that is confirmed for a round is the same strategy, since each agent gets it from the
+same offers by the same exchanges. And where anybody agrees, nobody has given up or ever will.
+To confirm is to promise to be there: where each goes if it never learns whether all have
+confirmed, and why the team meets again, is said in ``whereabouts``.
 
-Liveness: what a neighbour may still need is repeated every ``retry_s`` until its messages show
-that it is past needing it. An offer or a confirmation is shown by being relayed, an exchange of
-the consensus by the neighbour's next one. So while the team stays connected, each phase ends. Who
-sees that all its neighbours hold all confirmations is *settled* and falls silent; a neighbour that
-can't see the same of it still repeats its last exchanges, and that it answers.
+Liveness: what a neighbour may still need is repeated, at first after ``retry_s`` and then ever more
+rarely up to a bound, until its messages show that it is past needing it. An offer or a confirmation
+is shown by being relayed, an exchange of the consensus by the neighbour's next one. So while the
+team stays connected, each phase ends. Who sees that all its neighbours hold all confirmations is
+*settled* and falls silent; a neighbour that can't see the same of it still repeats its last
+exchanges, and that it answers.
 """
 
 import math
@@ -131,6 +139,7 @@ class Negotiation:
         self._ignored: list[CountIgnored] = []
         self._retry_s = team.retry_s
         self._next_need_s = math.inf
+        self._is_given_up = False
 
     @property
     def round(self) -> int:
@@ -157,12 +166,29 @@ class Negotiation:
         return self._agreed
 
     @property
+    def confirmed(self) -> TeamStrategy | None:
+        """The team strategy that this agent has confirmed, once it has."""
+        return None if self._confirming is None else self._confirming.strategy
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether no neighbour can need anything any more."""
+        return self._confirming is not None and self._confirming.is_shown_complete_by(
+            self._neighbours
+        )
+
+    @property
+    def is_given_up(self) -> bool:
+        """Whether it was too late to confirm: this agent will have no part in the round."""
+        return self._is_given_up
+
+    @property
     def awaited(self) -> str | None:
         """A neighbour without whose word nothing goes on, whatever others say; ``None`` if unknown.
 
         Whoever takes messages may leave the others' until this one's has come.
         """
-        if self._improving is None or self._confirming is not None:
+        if self._improving is None or self._confirming is not None or self._is_given_up:
             return None
         return self._improving.awaited
 
@@ -182,6 +208,8 @@ class Negotiation:
         Raises:
             InfeasibleRoundError: no admissible meeting exists in the round's window.
         """
+        if self._give_up(now_s):
+            return ()
         was_agreed = self._agreed is not None
         messages = self._advance()
         if messages:
@@ -190,7 +218,7 @@ class Negotiation:
             messages = self._repetitions()
         if messages:
             self._next_need_s = now_s + self._retry_s
-        if self._is_settled():
+        if self.is_settled:
             self._next_need_s = math.inf
         actions: list[Action] = [*self._ignored, *(SendMessage(message) for message in messages)]
         self._ignored = []
@@ -198,11 +226,18 @@ class Negotiation:
             actions.append(HoldStrategy(self._agreed))
         return tuple(actions)
 
+    def _give_up(self, now_s: float) -> bool:
+        """Give the round up if it is too late to confirm; return whether it is given up."""
+        if self._confirming is None and now_s >= self._team.confirmable_until_s(self._round):
+            self._is_given_up = True
+            self._next_need_s = math.inf
+        return self._is_given_up
+
     def _receive(self, message: Message) -> Reception:
         if message.sender not in self._team.members or message.sender == self._own:
             return Reception.FOREIGN
-        if message.round != self._round:
-            return Reception.LATE if message.round < self._round else Reception.EARLY
+        if message.round != self._round or self._is_given_up:
+            return Reception.EARLY if message.round > self._round else Reception.LATE
         match message:
             case PlanOffer():
                 return self._gathering.hear(message)
@@ -217,7 +252,7 @@ class Negotiation:
         """Once settled, show so to a neighbour that still repeats what it said last."""
         if self._confirming is None or reception not in (Reception.LATE, Reception.DUPLICATE):
             return reception
-        if not self._is_settled() or message.sender not in self._neighbours:
+        if not self.is_settled or message.sender not in self._neighbours:
             return Reception.LATE
         self._confirming.answer()
         return Reception.ACCEPTED
@@ -275,9 +310,12 @@ class Negotiation:
         )
 
     def _repetitions(self) -> list[Message]:
+        # What isn't lost but slow to be answered must not be said over and over. Members may take
+        # most of a window to arrive, a neighbour much less to go one exchange on.
+        is_gathering = self._improving is None
+        most_s = self._team.patience_s if is_gathering else self._team.longest_retry_s
+        self._retry_s = min(2.0 * self._retry_s, most_s)
         if self._improving is None:
-            # Members may take most of a window to arrive: ask ever more rarely until something new.
-            self._retry_s = min(2.0 * self._retry_s, self._team.patience_s)
             return [self._gathering.repetition()]
         if self._confirming is None:
             return [*self._offers_lacking(self._improving), *self._improving.unsuperseded]
@@ -289,12 +327,6 @@ class Negotiation:
             return []
         offer = self._gathering.lacking(self._neighbours)
         return [] if offer is None else [offer]
-
-    def _is_settled(self) -> bool:
-        """Return whether no neighbour can need anything any more."""
-        return self._confirming is not None and self._confirming.is_shown_complete_by(
-            self._neighbours
-        )
 
 
 def _meeting_graph(
