@@ -273,14 +273,22 @@ def _unsatisfied(scenario: Scenario, records: RunRecords, end_ns: int) -> Iterat
 
 
 def _disagreements(scenario: Scenario, records: RunRecords) -> Iterator[str]:
-    """Say which rounds not all agents hold the same strategy of; a last one may be incomplete."""
+    """Say which rounds not all agents hold the same strategy of; a last one may be incomplete.
+
+    Who reported that it lacks the others' confirmations does as all do, and holds nothing.
+    """
+    reported = {(r.event.round + 1, r.agent) for r in records.tasks if r.event.is_disagreement}
     held: dict[int, dict[str, set[TeamStrategy]]] = defaultdict(lambda: defaultdict(set))
     for record in records.strategies:
         held[record.strategy.round][record.agent].add(record.strategy)
     for number, by_agent in sorted(held.items()):
         if len(set[TeamStrategy]().union(*by_agent.values())) > 1:
             yield f"round {number}: agents hold different strategies"
-        missing = _names(name for name in scenario.agents if name not in by_agent)
+        missing = _names(
+            name
+            for name in scenario.agents
+            if name not in by_agent and (number, name) not in reported
+        )
         if missing and number < max(held):
             yield f"round {number}: not held by {missing}"
 

@@ -146,6 +146,7 @@ def team_of(site: Site, solver: Solver = DEFAULT) -> Team:
         duration_s=communication.duration_s,
         rules=Rules(communication.separation_m, communication.resilience),
         margin_s=communication.margin_s,
+        clearance_m=site.planned_clearance_m,
         solver=solver,
     )
 

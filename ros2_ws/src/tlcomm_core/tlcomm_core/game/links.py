@@ -48,8 +48,9 @@ class Neighbourhood:
     """Which places are neighbours, as a table.
 
     Attributes:
-        places: int[Z, D] the neighbours of each place. Shorter rows are filled up with the place
-            itself if each is its own neighbour, otherwise with Z, where nobody can be.
+        places: int[D, Z] a column for each place: its neighbours. Shorter columns are filled up
+            with the place itself if each is its own neighbour, otherwise with Z, where nobody can
+            be. (Sweeps over all places take long rows.)
         is_reflexive: whether each place is its own neighbour.
     """
 
@@ -57,33 +58,41 @@ class Neighbourhood:
     is_reflexive: bool = True
 
     @classmethod
-    def of(cls, rows: Sequence[NDArray[np.intp]], *, is_reflexive: bool) -> "Neighbourhood":
+    def of(cls, columns: Sequence[NDArray[np.intp]], *, is_reflexive: bool) -> "Neighbourhood":
         """Return the table of the neighbours of each place."""
-        degree = max((len(row) for row in rows), default=1)
-        table = np.repeat(_filling(len(rows), is_reflexive=is_reflexive), degree, axis=1)
-        for place, row in enumerate(rows):
-            table[place, : len(row)] = row
+        degree = max((len(column) for column in columns), default=1)
+        table = np.tile(_filling(len(columns), is_reflexive=is_reflexive), (degree, 1))
+        for place, column in enumerate(columns):
+            table[: len(column), place] = column
         table.setflags(write=False)
         return cls(table, is_reflexive)
 
+    def __len__(self) -> int:
+        """Return the number of places Z."""
+        return self.places.shape[1]
+
     def among(self, kept: NDArray[np.intp]) -> "Neighbourhood":
         """Return the neighbourhood of some of the places, which keep their order."""
-        index = np.full(len(self.places) + 1, -1, dtype=np.intp)
+        index = np.full(len(self) + 1, -1, dtype=np.intp)
         index[kept] = np.arange(len(kept))
-        places = index[self.places[kept]]
+        places = index[self.places[:, kept]]
         filling = _filling(len(kept), is_reflexive=self.is_reflexive)
         return Neighbourhood(np.where(places < 0, filling, places), self.is_reflexive)
 
     def least(self, cost: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the least of a cost float[..., Z] over the neighbours of each place, likewise."""
         costs = cost if self.is_reflexive else _with_nowhere(cost)
-        least: NDArray[np.float64] = costs[..., self.places.T].min(axis=-2)
+        least: NDArray[np.float64] = costs.take(self.places, axis=-1).min(axis=-2)
         return least
+
+    def near(self, place: int) -> NDArray[np.intp]:
+        """Return the neighbours of a place, which itself may be among them more than once."""
+        near = self.places[:, place]
+        return near if self.is_reflexive else near[near < len(self)]
 
     def cheapest(self, cost: NDArray[np.float64], place: int) -> int:
         """Return the neighbour of a place where a cost float[Z] is least; it must have one."""
-        near = self.places[place]
-        near = near[near < len(cost)]
+        near = self.near(place)
         return int(near[np.argmin(cost[near])])
 
 
@@ -93,8 +102,7 @@ def _with_nowhere(cost: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _filling(count: int, *, is_reflexive: bool) -> NDArray[np.intp]:
-    filling = np.arange(count, dtype=np.intp) if is_reflexive else np.full(count, count, np.intp)
-    return filling[:, None]
+    return np.arange(count, dtype=np.intp) if is_reflexive else np.full(count, count, np.intp)
 
 
 class Links:
