@@ -119,6 +119,14 @@ def test_the_end_of_the_window_is_kept_clear(
         assert np.flatnonzero(np.isfinite(table.extra_s[0])).tolist() == [here]
 
 
+def test_a_margin_is_kept_free_too(travel: TravelTimes) -> None:
+    """With 3 s to spare, arriving 2 s before the window's end is too late, 4 s isn't."""
+    for early_s, rows in ((2.0, 0), (4.0, 1)):
+        finish_s = WINDOW_S[1] - early_s - 5.0
+        stops = offer((0.25, 0.25, 0, finish_s), (0.75, 0.25, 0, 200.0))
+        assert len(candidates(stops, 5.0, WINDOW_S, travel, 3.0).task_index) == rows
+
+
 def test_rows_without_admissible_entries_are_dropped(travel: TravelTimes) -> None:
     """A stop that is finished too late has no row, and the index of the others stays theirs."""
     late = offer((1.25, 3.25, 2, 10.0), (3.25, 3.25, 0, 116.0), (1.25, 3.25, 4, 130.0))

@@ -6,10 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from support.ruled_rounds import RULES, ruled_problem
 from tlcomm_core.errors import InputError
 from tlcomm_core.game.algorithm import Solution, solve
 from tlcomm_core.game.document import parse_round, round_document
 from tlcomm_core.game.problem import RoundProblem
+from tlcomm_core.game.rules import PLAIN_RULES
 from tlcomm_core.game.sample import sample_problem
 
 Document = dict[str, Any]
@@ -51,11 +53,28 @@ def test_a_document_keeps_the_problem(problem: RoundProblem, document: Document)
         np.testing.assert_array_equal(ours.extra_s, theirs.extra_s)
 
 
+def test_a_document_keeps_links_and_rules() -> None:
+    """What isn't in sight, and what the rules demand, is read back; none of it in older ones."""
+    problem = ruled_problem(1, (3, 3, 4, 3), RULES["both"], is_blind=True)
+    document = json.loads(json.dumps(round_document(problem, solve(problem))))
+    parsed = parse_round(document)
+    assert len(document["blind"]) > 0
+    assert parsed.rules == problem.rules
+    for place in range(len(problem.links)):
+        assert parsed.links.near(place).tolist() == problem.links.near(place).tolist()
+    for name in ("blind", "separation", "resilience"):
+        del document[name]
+    plain = parse_round(document)
+    assert plain.rules == PLAIN_RULES
+    assert plain.links.blind_pairs == ()
+
+
 def test_a_document_has_the_names_of_the_contract(solution: Solution, document: Document) -> None:
     """The members that others read are there, and the solution's indices are ours."""
     assert document["format"] == "tlcomm-round/1"
     assert set(document) == {
         *("format", "round", "window", "range", "agents", "locations", "candidates"),
+        *("blind", "separation", "resilience"),
         *("initial", "nash"),
     }
     assert set(document["candidates"][0]) == {"task_index", "arrival", "extra"}

@@ -11,6 +11,7 @@ from tlcomm_core.game.algorithm import solve
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import RoundProblem
 from tlcomm_core.game.recognition import recognise
+from tlcomm_core.game.rules import Rules
 from tlcomm_core.game.sample import sample_problem
 from tlcomm_core.game.strategy import Strategy
 
@@ -82,3 +83,11 @@ def test_another_potential_than_claimed_is_refused(problem: RoundProblem, off_s:
     """Whoever claims less than its proposal costs would win every comparison."""
     strategies, potential_s = found(problem)
     assert recognise(problem, strategies, potential_s + off_s) is None
+
+
+def test_what_the_rules_forbid_is_refused(problem: RoundProblem) -> None:
+    """Three agents in a row, 0.5 m apart: close enough to each other, but perhaps too close."""
+    strategies, potential_s = found(problem)
+    for separation_m, is_fine in ((0.5, True), (0.6, False)):
+        apart = replace(problem, rules=Rules(separation_m=separation_m))
+        assert (recognise(apart, strategies, potential_s) is not None) == is_fine

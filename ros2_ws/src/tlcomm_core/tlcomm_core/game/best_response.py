@@ -159,10 +159,10 @@ def best_response(
 def _open_places(
     problem: RoundProblem, location: int, others: Sequence[Strategy], scope: Scope
 ) -> NDArray[np.intp]:
-    """Return the locations, ascending, that the scope and the team's connectivity leave."""
-    connecting = problem.links.connecting(problem.places_of(others))
+    """Return the locations, ascending, that the scope and the meeting's rules leave."""
+    is_open = problem.open_places(problem.places_of(others))
     if scope is Scope.EVERYWHERE:
-        return np.flatnonzero(connecting)
+        return np.flatnonzero(is_open)
     near = problem.links.near(location)
-    places: NDArray[np.intp] = near[connecting[near]]
+    places: NDArray[np.intp] = near[is_open[near]]
     return places

@@ -17,7 +17,8 @@ from tlcomm_core.workspace.travel import TravelTimes
 __all__ = ["ROUNDING_S", "candidates"]
 
 ROUNDING_S: Final = 1e-3
-"""Kept free before the window's end: simulated time is rounded to nanoseconds, each time anew."""
+"""Kept free before the window's end, unless more is asked for: simulated time is rounded to
+nanoseconds, each time anew."""
 
 
 def candidates(
@@ -25,6 +26,7 @@ def candidates(
     departure_s: float,
     window_s: tuple[float, float],
     travel: TravelTimes,
+    margin_s: float = ROUNDING_S,
 ) -> Candidates:
     """Return the strategies open to an agent in the window.
 
@@ -33,11 +35,12 @@ def candidates(
         departure_s: when it leaves the present meeting, t_c + D_c (simulated time).
         window_s: [r·T_c, (r+1)·T_c) of the meeting to plan.
         travel: travel times with the agent's own motion.
+        margin_s: kept free before the window's end.
 
     Returns:
         A row for each stop h but the last that has an admissible entry. An entry is admissible
         when z and the way back are reachable and the agent is there by the window's end less
-        ``ROUNDING_S``; too early is admissible, as an agent can wait.
+        the margin; too early is admissible, as an agent can wait.
 
     Raises:
         LocalMisuseError: a stop isn't in a free cell, or unreachable from the one before.
@@ -53,7 +56,7 @@ def candidates(
         detour = travel.detour(pose, _location(following, travel))
         arrival_s[h] = (departure_s + stop.finish_offset_s) + detour.there_s
         extra_s[h] = detour.extra_s
-    admissible = (arrival_s < window_s[1] - ROUNDING_S) & np.isfinite(extra_s)
+    admissible = (arrival_s < window_s[1] - margin_s) & np.isfinite(extra_s)
     kept = admissible.any(axis=1)
     task_index = np.array([stop.task_index for stop in offer.stops[:-1]], dtype=np.int64)
     return Candidates(

@@ -20,6 +20,7 @@ from tlcomm_core.game.algorithm import Solution
 from tlcomm_core.game.links import Links
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Candidates, Profile, RoundProblem
+from tlcomm_core.game.rules import Rules
 from tlcomm_core.game.solver import Solved
 
 __all__ = ["ROUND_FORMAT", "parse_round", "profile_document", "round_document", "solved_document"]
@@ -34,7 +35,8 @@ def round_document(problem: RoundProblem, solution: Solution) -> dict[str, objec
     """Return a round's problem and solution, ready for ``json.dumps``.
 
     Inadmissible entries become None. ``candidates`` is a list in the order of ``agents``, as
-    ``location`` and ``candidate`` of the solutions are.
+    ``location`` and ``candidate`` of the solutions are. ``blind`` lists the pairs of locations that
+    aren't linked although they are in range.
     """
     return {
         "format": ROUND_FORMAT,
@@ -43,6 +45,9 @@ def round_document(problem: RoundProblem, solution: Solution) -> dict[str, objec
         "range": problem.range_m,
         "agents": list(problem.agents),
         "locations": problem.locations_m.tolist(),
+        "blind": [list(pair) for pair in problem.links.blind_pairs],
+        "separation": problem.rules.separation_m,
+        "resilience": problem.rules.resilience,
         "candidates": [
             {
                 "task_index": own.task_index.tolist(),
@@ -90,11 +95,14 @@ def parse_round(document: Mapping[str, object]) -> RoundProblem:
     return RoundProblem(
         round=model.round,
         window_s=model.window,
-        links=Links(np.array(model.locations, dtype=np.float64).reshape(-1, 2), model.range),
+        links=Links.without(
+            np.array(model.locations, dtype=np.float64).reshape(-1, 2), model.range, model.blind
+        ),
         candidates=tuple(
             _parse_table(agent, table, len(model.locations))
             for agent, table in zip(model.agents, model.candidates, strict=True)
         ),
+        rules=Rules(model.separation, model.resilience),
     )
 
 
@@ -120,6 +128,10 @@ class _Document(_Model):
     agents: Annotated[list[str], Field(min_length=1)]
     locations: list[Annotated[tuple[float, float], Field(strict=False)]]
     candidates: list[_TableModel]
+    # Documents from before there were such rules lack them.
+    blind: list[Annotated[tuple[int, int], Field(strict=False)]] = []
+    separation: Annotated[float, Field(ge=0.0)] = 0.0
+    resilience: Annotated[int, Field(ge=0, le=1)] = 0
 
 
 def _check_names(model: _Document) -> None:
@@ -127,6 +139,13 @@ def _check_names(model: _Document) -> None:
         raise InputError(
             f"round problem: window: expected a start before the end, not {model.window!r}"
         )
+    places = len(model.locations)
+    for pair in model.blind:
+        if not 0 <= pair[0] < pair[1] < places:
+            raise InputError(
+                f"round problem: blind: expected two of {places} places, the lower first, not "
+                f"{pair!r}"
+            )
     if model.agents != sorted(set(model.agents)):
         raise InputError(
             f"round problem: agents: expected distinct names, sorted, not {model.agents!r}"

@@ -1,6 +1,7 @@
 """The optimum of Problem 2 with a certificate.
 
 ``MOST_AGENTS``    of how many agents it is found in reasonable time
+``MOST_DECISIONS`` how many decisions on single agents are reasonable
 ``Share``          which part of the communication times to search
 ``Optimum``        the best team strategy found, and what is proven about it
 ``solve_exactly``  branch and bound over the communication time
@@ -8,21 +9,26 @@
 
 import heapq
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tlcomm_core.game.limits import Limits, contested
 from tlcomm_core.game.placement import cheapest_placement
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Profile, RoundProblem
 
-__all__ = ["MOST_AGENTS", "WHOLE", "Optimum", "Share", "solve_exactly"]
+__all__ = ["MOST_AGENTS", "MOST_DECISIONS", "WHOLE", "Optimum", "Share", "solve_exactly"]
 
 MOST_AGENTS: Final = 10
 """Each further agent triples the time and doubles the memory."""
+
+MOST_DECISIONS: Final = 200
+"""How often a search decides on single agents, where rules forbid the cheapest placements, before
+it leaves a gap: each decision only rules out a few of all placements."""
 
 # Two sums of the same costs in different orders may differ by this much.
 _ROUNDING_S: Final = 1e-7
@@ -77,6 +83,7 @@ def solve_exactly(
     start: Profile,
     share: Share = WHOLE,
     is_over: Callable[[], bool] = lambda: False,
+    most_decisions: int = MOST_DECISIONS,
 ) -> Optimum:
     """Return the team strategy of least potential, or the best until interrupted.
 
@@ -86,16 +93,23 @@ def solve_exactly(
     all τ of an interval; intervals are halved, the most promising first, until no bound is left
     below the best potential found.
 
+    Rules beside connectivity are left out of P, but that no link is shorter than the separation;
+    so the bounds hold. Where P is attained by a placement that the rules forbid, the search goes on
+    with one agent bound to its place there, and with that agent banned from it. Separations cost
+    few such decisions, as a bound of single links already holds most of them; resilience costs many
+    more, and then the search may end with a gap.
+
     Args:
         problem: a round of few agents: time and memory grow like 3^N and 2^N.
         start: an admissible team strategy, such as an equilibrium; the better, the faster.
         share: the part of the communication times to search; the least of all shares' results is
             the optimum, and the least of their bounds its certificate.
-        is_over: asked before each placement; ends the search early.
+        is_over: asked before each step of the search; ends it early, with a gap.
+        most_decisions: after so many on single agents it ends with a gap, too.
 
     Source: Problem 2 of the paper, Eq. (5) and (8).
     """
-    search = _Search(problem, start, share)
+    search = _Search(problem, start, share, most_decisions)
     while search.is_open and not is_over():
         search.branch()
     return search.optimum
@@ -103,18 +117,38 @@ def solve_exactly(
 
 @dataclass(order=True, slots=True)
 class _Interval:
-    """Communication times not yet ruled out, by their indices in the sorted arrivals."""
+    """Communication times not yet ruled out, by their indices in the sorted arrivals.
+
+    Attributes:
+        bound_s: no Φ in it is less.
+        first: index of its lower end.
+        last: of its upper end.
+        placement_s: P for the upper end, or less.
+        limits: what it holds for.
+        dispute: an agent to decide on, with its place in a forbidden placement that attains P for
+            the whole interval; None if it is to be halved.
+    """
 
     bound_s: float
     first: int
     last: int
     placement_s: float
+    limits: Limits = field(compare=False)
+    dispute: tuple[int, int] | None = field(compare=False)
+
+    @property
+    def origin(self) -> tuple[float, Limits, tuple[int, int] | None]:
+        """What a part of it shares with it."""
+        return self.placement_s, self.limits, self.dispute
 
 
 class _Search:
     """Branch and bound over the communication time; times count from r·T_c."""
 
-    def __init__(self, problem: RoundProblem, start: Profile, share: Share) -> None:
+    def __init__(
+        self, problem: RoundProblem, start: Profile, share: Share, most_decisions: int
+    ) -> None:
+        self._decisions_left = most_decisions
         self._costs = _Costs(problem)
         self._best = start
         self._best_s = self._costs.potential_s(start)
@@ -122,14 +156,16 @@ class _Search:
         self._open: list[_Interval] = []
         last = len(self._costs.times_s) - 1
         if last >= 0:
-            self._examine(0, last)
+            self._examine(0, last, Limits())
         if share.count > 1:
             self._keep(share)
 
     @property
     def is_open(self) -> bool:
         """Whether something better may still be found."""
-        return bool(self._open) and self._open[0].bound_s < self._best_s - _ROUNDING_S
+        if not self._open or self._open[0].bound_s >= self._best_s - _ROUNDING_S:
+            return False
+        return self._open[0].dispute is None or self._decisions_left > 0
 
     @property
     def optimum(self) -> Optimum:
@@ -138,22 +174,26 @@ class _Search:
         return Optimum(self._best, self._best_s, bound_s, self._placements)
 
     def branch(self) -> None:
-        """Halve the most promising interval."""
+        """Halve the most promising interval, or decide on an agent there."""
         interval = heapq.heappop(self._open)
-        times_s, team = self._costs.times_s, self._costs.team
+        times_s = self._costs.times_s
         last = self._last_of_use(interval)
         if last < interval.first:
             return
+        if interval.dispute is not None:
+            self._decisions_left -= 1
+            for limits in interval.limits.decide(*interval.dispute):
+                self._examine(interval.first, last, limits)
+            return
         middle_s = (times_s[interval.first] + times_s[last]) / 2.0
         middle = int(np.searchsorted(times_s, middle_s, side="right")) - 1
-        self._examine(interval.first, middle)
+        self._examine(interval.first, middle, interval.limits)
         if middle < last:
-            bound_s = team * times_s[middle + 1] + interval.placement_s
-            self._push(bound_s, middle + 1, last, interval.placement_s)
+            self._push(middle + 1, last, interval.placement_s, interval.limits)
 
     def _keep(self, share: Share) -> None:
         """Leave only this share of all that is open."""
-        times_s, team = self._costs.times_s, self._costs.team
+        times_s = self._costs.times_s
         whole, self._open = self._open, []
         for interval in whole:
             beyond = self._last_of_use(interval) + 1
@@ -163,8 +203,7 @@ class _Search:
             spans = list(pairwise([interval.first, *cuts, beyond]))
             for first, following in spans[share.index :: share.count]:
                 if first < following:
-                    bound_s = team * times_s[first] + interval.placement_s
-                    self._push(bound_s, first, following - 1, interval.placement_s)
+                    self._push(first, following - 1, *interval.origin)
 
     def _last_of_use(self, interval: _Interval) -> int:
         """Return the last time of an interval at which the best one found can be beaten."""
@@ -172,25 +211,40 @@ class _Search:
         latest = int(np.searchsorted(self._costs.times_s, room_s / self._costs.team))
         return min(interval.last, latest - 1)
 
-    def _examine(self, first: int, last: int) -> None:
+    def _examine(self, first: int, last: int, limits: Limits) -> None:
         """Compute the cheapest placement for the interval's upper end."""
         times_s, team = self._costs.times_s, self._costs.team
         self._placements += 1
         room_s = self._best_s - team * times_s[first]
-        placement_s, profile = self._costs.placement(times_s[last], room_s)
+        placement_s, profile = self._costs.placement(times_s[last], room_s, limits)
         if profile is None:
             return
-        potential_s = self._costs.potential_s(profile)
         # The same placement serves every bound from its own latest arrival on.
-        last = int(np.searchsorted(times_s, self._costs.meeting_s(profile))) - 1
-        if potential_s < self._best_s:
-            self._best, self._best_s = profile, potential_s
-        if last >= first:
-            self._push(team * times_s[first] + placement_s, first, last, placement_s)
+        own = max(first, int(np.searchsorted(times_s, self._costs.meeting_s(profile))))
+        if self._costs.is_admissible(profile):
+            potential_s = self._costs.potential_s(profile)
+            if potential_s < self._best_s:
+                self._best, self._best_s = profile, potential_s
+        else:
+            agent = self._costs.contested(profile, limits)
+            if agent is not None:
+                dispute = (agent, profile.location[agent])
+                self._push(own, last, placement_s, limits, dispute)
+        if own > first:
+            self._push(first, own - 1, placement_s, limits)
 
-    def _push(self, bound_s: float, first: int, last: int, placement_s: float) -> None:
+    def _push(
+        self,
+        first: int,
+        last: int,
+        placement_s: float,
+        limits: Limits,
+        dispute: tuple[int, int] | None = None,
+    ) -> None:
+        bound_s = float(self._costs.team * self._costs.times_s[first] + placement_s)
         if bound_s < self._best_s - _ROUNDING_S:
-            heapq.heappush(self._open, _Interval(float(bound_s), first, last, placement_s))
+            interval = _Interval(bound_s, first, last, placement_s, limits, dispute)
+            heapq.heappush(self._open, interval)
 
 
 class _Costs:
@@ -211,20 +265,25 @@ class _Costs:
             own.extra_s - np.where(np.isfinite(since_s), since_s, 0.0)
             for own, since_s in zip(problem.candidates, self._since_s, strict=True)
         ]
-        self._neighbourhood = problem.links.neighbourhood
+        separation_m = problem.rules.separation_m
+        self._neighbourhood = problem.links.neighbourhood_apart(separation_m)
         earliest_s = max(0.0, *(float(since_s.min()) for since_s in self._since_s))
         arrivals_s = np.concatenate([since_s.ravel() for since_s in self._since_s])
         later_s = arrivals_s[np.isfinite(arrivals_s) & (arrivals_s > earliest_s)]
         self.times_s = np.unique(np.append(later_s, earliest_s))
 
-    def placement(self, latest_s: float, room_s: float) -> tuple[float, Profile | None]:
+    def placement(
+        self, latest_s: float, room_s: float, limits: Limits
+    ) -> tuple[float, Profile | None]:
         """Return P(τ) for a bound τ and what attains it, if P(τ) is less than ``room_s``."""
+        links, separation_m = self._problem.links, self._problem.rules.separation_m
         costs_s = np.array(
             [
                 np.where(since_s <= latest_s, gain_s, np.inf).min(axis=0)
                 for since_s, gain_s in zip(self._since_s, self._gain_s, strict=True)
             ]
         )
+        costs_s = limits.applied(costs_s, links, separation_m)
         least_s = costs_s.min(axis=1)
         if not np.isfinite(least_s).all():
             return np.inf, None
@@ -237,6 +296,14 @@ class _Costs:
             return np.inf, None
         locations = tuple(kept[list(placement.locations)].tolist())
         return placement.cost, Profile(locations, self._best_candidates(locations, latest_s))
+
+    def is_admissible(self, profile: Profile) -> bool:
+        """Return whether the rules allow a connected placement."""
+        return self._problem.is_admissible(profile.location)
+
+    def contested(self, profile: Profile, limits: Limits) -> int | None:
+        """Return the agent to decide on in a forbidden placement; None if all are decided on."""
+        return contested(self._problem.links, self._problem.rules, profile.location, limits)
 
     def potential_s(self, profile: Profile) -> float:
         """Return Φ."""

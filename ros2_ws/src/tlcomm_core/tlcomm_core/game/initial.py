@@ -1,4 +1,4 @@
-"""The initial team strategy: everybody at one place, chosen exactly.
+"""The initial team strategy: everybody at one place, chosen exactly, or around one.
 
 ``initial_profile``  S⁰, the least potential over all common places and admissible times
 """
@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tlcomm_core.errors import InfeasibleRoundError
+from tlcomm_core.game.formation import cheapest_formation
 from tlcomm_core.game.problem import Profile, RoundProblem
 
 __all__ = ["initial_profile"]
@@ -30,7 +31,7 @@ def initial_profile(problem: RoundProblem) -> Profile:
         problem: at least one agent.
 
     Returns:
-        S⁰, with one location for all.
+        S⁰, with one location for all; a formation if the rules demand a separation.
 
     Raises:
         InfeasibleRoundError: some agents have no admissible candidate, or no place is
@@ -40,6 +41,7 @@ def initial_profile(problem: RoundProblem) -> Profile:
         place z and a bound τ on the arrivals, the best h of agent i is the one with t ≤ τ and the
         least δ − t, and Φ = N·max(τ, r·T_c) + Σ_i min(δ − t); the least over all arrivals τ is
         exact.
+    Deviates: agents that mustn't share a place begin in a formation around one.
     Cost: O(N·H·Z) for lower bounds, then O(N·H·(N + log(N·H))) for each place that these leave.
     """
     _check_feasible(problem)
@@ -51,6 +53,8 @@ def initial_profile(problem: RoundProblem) -> Profile:
             f"round {problem.round}: no place that all of {', '.join(problem.agents)} "
             f"reach before {closes_s!r} s"
         )
+    if problem.rules.separation_m:
+        return _spread(problem, bound_s)
     location, latest_s = _best_place(table, bound_s)
     return Profile(
         location=(location,) * len(problem.agents),
@@ -66,6 +70,19 @@ def _check_feasible(problem: RoundProblem) -> None:
             f"round {problem.round}: no candidate that arrives in time for the window "
             f"[{opens_s!r}, {closes_s!r}) s for {', '.join(stranded)}"
         )
+
+
+def _spread(problem: RoundProblem, bound_s: NDArray[np.float64]) -> Profile:
+    """Return the cheapest formation around the places in the order of their bounds."""
+    order = np.argsort(bound_s, kind="stable")
+    profile = cheapest_formation(problem, order[np.isfinite(bound_s[order])].tolist())
+    if profile is None:
+        raise InfeasibleRoundError(
+            f"round {problem.round}: no {len(problem.agents)} places at least "
+            f"{problem.rules.separation_m!r} m apart that all of {', '.join(problem.agents)} "
+            "reach in time and that are connected as the scenario demands"
+        )
+    return profile
 
 
 def _best_place(table: "_Table", bound_s: NDArray[np.float64]) -> tuple[int, float]:

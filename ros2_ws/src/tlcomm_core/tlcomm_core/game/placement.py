@@ -118,8 +118,7 @@ def _trace(
         parts = _parts(subset)
         part = int(parts[np.argmin(table[parts, place] + reached[subset ^ parts, place])])
         rest = subset ^ part
-        near = neighbourhood.places[place]
-        onward = int(near[np.argmin(table[rest, near])])
+        onward = neighbourhood.cheapest(table[rest], place)
         _trace(table, reached, neighbourhood, rest, onward, locations)
         subset = part
     locations[subset.bit_length() - 1] = place

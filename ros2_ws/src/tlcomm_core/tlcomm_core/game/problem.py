@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.game.links import Links
+from tlcomm_core.game.rules import PLAIN_RULES, Rules, is_admissible, open_places
 from tlcomm_core.game.strategy import Strategy
 
 __all__ = ["Candidates", "Choice", "Profile", "RoundProblem"]
@@ -72,12 +73,14 @@ class RoundProblem:
         window_s: [r·T_c, (r+1)·T_c).
         links: every candidate place, and which of them are linked.
         candidates: per agent, sorted by the agent's name.
+        rules: what the places of the meeting must be, beside connected.
     """
 
     round: int
     window_s: tuple[float, float]
     links: Links
     candidates: tuple[Candidates, ...]
+    rules: Rules = PLAIN_RULES
 
     @property
     def locations_m(self) -> NDArray[np.float64]:
@@ -94,9 +97,13 @@ class RoundProblem:
         """Names, sorted."""
         return tuple(candidates.agent for candidates in self.candidates)
 
+    def is_admissible(self, places: Sequence[int]) -> bool:
+        """Tell whether the team may meet at some places, one for each agent."""
+        return is_admissible(self.links, self.rules, places)
+
     def open_places(self, others: Sequence[int]) -> NDArray[np.bool_]:
-        """Tell where one more agent may be while the others are at these places, [Z], fresh."""
-        return self.links.connecting(others)
+        """Tell, [Z], where one agent may go while the others' places stay."""
+        return open_places(self.links, self.rules, others)
 
     def strategy(self, agent: int, location: int, candidate: int) -> Strategy:
         """Return one agent's candidate as the values that are exchanged."""

@@ -30,7 +30,7 @@ def recognise(
 
     Returns:
         The profile, if all agents are there in their order, each with a candidate of its own and
-        its times, at places that are connected, and if Φ is as claimed; ``None`` otherwise.
+        its times, at places that the rules allow, and if Φ is as claimed; ``None`` otherwise.
     """
     if tuple(strategy.agent for strategy in strategies) != problem.agents:
         return None
@@ -45,7 +45,7 @@ def recognise(
         rows.append(row)
     opens_s, _ = problem.window_s
     is_as_claimed = abs(potential(strategies, opens_s) - potential_s) <= POTENTIAL_TOLERANCE_S
-    if is_as_claimed and problem.links.is_connected(locations):
+    if is_as_claimed and problem.is_admissible(locations):
         return Profile(tuple(locations), tuple(rows))
     return None
 

@@ -6,6 +6,7 @@
 ``solve_with``     the same in one place: the reference that the protocol must agree with
 ``BEST_RESPONSE``  none: Algorithm 1 from S⁰
 ``EXACT``          the optimum, searched for in shares
+``COALITION``      near the optimum, for teams of any size
 ``SOLVERS``        all of them, by name
 ``DEFAULT``        the one that is used unless another is asked for
 
@@ -24,6 +25,7 @@ from typing import Final
 from tlcomm_core.errors import InputError
 from tlcomm_core.game.algorithm import Solution, improve
 from tlcomm_core.game.best_response import Scope
+from tlcomm_core.game.coalition import propose
 from tlcomm_core.game.exact import MOST_AGENTS, Share, solve_exactly
 from tlcomm_core.game.initial import initial_profile
 from tlcomm_core.game.potential import potential
@@ -31,6 +33,7 @@ from tlcomm_core.game.problem import Profile, RoundProblem
 
 __all__ = [
     "BEST_RESPONSE",
+    "COALITION",
     "DEFAULT",
     "EXACT",
     "SOLVERS",
@@ -138,9 +141,15 @@ def _exact(problem: RoundProblem, initial: Profile, searcher: int) -> Proposed:
     return Proposed(optimum.profile, optimum.bound_s)
 
 
+def _coalition(problem: RoundProblem, initial: Profile, searcher: int) -> Proposed:
+    """Search this searcher's share of the communication times without proving anything."""
+    return Proposed(propose(problem, initial, searcher), -math.inf)
+
+
 BEST_RESPONSE: Final = Solver("best-response")
 EXACT: Final = Solver("exact", _exact, MOST_AGENTS)
+COALITION: Final = Solver("coalition", _coalition)
 SOLVERS: Final[Mapping[str, Solver]] = MappingProxyType(
-    {solver.name: solver for solver in (BEST_RESPONSE, EXACT)}
+    {solver.name: solver for solver in (BEST_RESPONSE, COALITION, EXACT)}
 )
 DEFAULT: Final = BEST_RESPONSE

@@ -1,8 +1,8 @@
 """The scenario's fields, their types and ranges, one class per section of the file.
 
 ``Scenario`` holds ``Workspace`` (with ``Region``), ``Communication``, ``Drive``, ``Noise``,
-``Faults``, ``Action`` and ``Agent`` (with ``DriveOverride`` and ``Soft``). What fields mean
-together is checked in ``checks``.
+``Faults``, ``Radio``, ``Action`` and ``Agent`` (with ``DriveOverride`` and ``Soft``). What fields
+mean together is checked in ``checks``.
 """
 
 from typing import Annotated, Final
@@ -22,6 +22,7 @@ __all__ = [
     "DriveOverride",
     "Faults",
     "Noise",
+    "Radio",
     "Region",
     "Scenario",
     "Soft",
@@ -73,12 +74,47 @@ class Workspace(_Section):
 
 
 class Communication(_Section):
-    """Radio range R, period T_c and duration D_c of the team's communication."""
+    """When and how the team meets.
+
+    Attributes:
+        range_m: radio range R.
+        period_s: T_c.
+        duration_s: D_c.
+        hop_latency_s: from sending a message to its arrival, in lock step.
+        separation_m: the least distance between two agents' places at a planned meeting.
+        resilience: how many agents may fail so that the others still are connected.
+        margin_s: how long before its window's end a meeting begins at the latest.
+    """
 
     range_m: Positive
     period_s: Positive
     duration_s: Positive
     hop_latency_s: Positive = 0.005
+    separation_m: NotNegative = 0.0
+    resilience: Annotated[int, Field(ge=0, le=1)] = 0
+    margin_s: NotNegative = 0.001
+
+
+class Radio(_Section):
+    """How good the links between neighbours are; by default nothing is lost or late.
+
+    Attributes:
+        loss: probability that a neighbour misses a message.
+        loss_at_range: the same at the distance R, linear in between from ``loss`` at distance 0;
+            ``loss`` at any distance if not given.
+        jitter_s: what is added to a message's latency, at random: uniform from 0 to this.
+        duplication: probability that a message that is heard is heard twice.
+        bandwidth_bps: how many bits a second one agent gets through to another; no limit if not
+            given.
+        line_of_sight: whether agents hear each other only if no obstacle is between them.
+    """
+
+    loss: Share = 0.0
+    loss_at_range: Share | None = None
+    jitter_s: NotNegative = 0.0
+    duplication: Share = 0.0
+    bandwidth_bps: Positive | None = None
+    line_of_sight: bool = False
 
 
 class Drive(_Section):
@@ -182,6 +218,7 @@ class Scenario(_Section):
     motion: Drive
     noise: Noise = Noise()
     faults: Faults = Faults()
+    radio: Radio = Radio()
     actions: Actions = {}
     agents: Annotated[dict[Name, Agent], Field(min_length=1, max_length=MAX_AGENTS)]
 

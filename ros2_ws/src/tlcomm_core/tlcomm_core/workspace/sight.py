@@ -1,6 +1,7 @@
 """Which places see each other past the obstacles.
 
 ``sightlines``  of pairs of points, whether nothing solid is between them
+``corners``     past which points sight comes and goes
 """
 
 from collections.abc import Iterator
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from tlcomm_core.workspace.grid import Grid
 
-__all__ = ["sightlines"]
+__all__ = ["corners", "sightlines"]
 
 # Far above the rounding of coordinates, far below anything that matters: what drives along a wall
 # still sees along it.
@@ -60,6 +61,19 @@ def sightlines(
         reached = _reached(ends, low_m, high_m)
         seen[chunk] = ~_cross(ends, low_m[reached], high_m[reached])
     return seen.reshape(shape)
+
+
+def corners(grid: Grid) -> NDArray[np.float64]:
+    """Return the corners of the obstacles, float[4·boxes, 2], as ``sightlines`` sees them.
+
+    While two points move freely, sight between them changes only when the straight between them
+    passes a corner.
+    """
+    low_m, high_m = grid.boxes[:, :2] + _SKIN_M, grid.boxes[:, 2:] - _SKIN_M
+    x_m = np.stack((low_m[:, 0], high_m[:, 0], high_m[:, 0], low_m[:, 0]), axis=1)
+    y_m = np.stack((low_m[:, 1], low_m[:, 1], high_m[:, 1], high_m[:, 1]), axis=1)
+    points_m: NDArray[np.float64] = np.stack((x_m, y_m), axis=2).reshape(-1, 2)
+    return points_m
 
 
 def _ordered(

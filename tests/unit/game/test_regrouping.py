@@ -1,0 +1,46 @@
+"""Coalitions that join themselves anew."""
+
+import networkx as nx
+import numpy as np
+import pytest
+
+from tlcomm_core.game.links import Links
+from tlcomm_core.game.placement import cheapest_placement
+from tlcomm_core.game.regrouping import regroup
+from tlcomm_core.game.spanning_tree import grown_tree
+from tlcomm_core.game.tree_programme import TreeProgramme
+
+
+def sample(seed: int, team: int) -> TreeProgramme:
+    """Return the programme of a first tree for random costs on a lattice."""
+    rng = np.random.default_rng(seed)
+    x, y = np.meshgrid(np.arange(8.0), np.arange(8.0))
+    links = Links(np.column_stack((x.ravel(), y.ravel())), 1.5)
+    homes_m = rng.uniform(0.0, 7.0, (team, 2))
+    costs = np.linalg.norm(homes_m[:, None] - links.locations_m, axis=2)
+    edges = grown_tree(costs, links.neighbourhood, 0)
+    assert edges is not None
+    return TreeProgramme(costs, links.neighbourhood, edges)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_coalition_of_all_finds_the_optimum(seed: int) -> None:
+    """One tree is as good as another to begin with."""
+    programme = sample(seed, 5)
+    regroup(programme, programme._neighbourhood, 5, np.random.default_rng(0))
+    optimum = cheapest_placement(programme.costs, programme._neighbourhood)
+    assert programme.cost() == pytest.approx(optimum.cost)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_what_is_gained_is_gone_from_the_cost(seed: int) -> None:
+    """The cost falls by what is told, and at last not at all; the tree stays a tree."""
+    programme, rng = sample(seed, 12), np.random.default_rng(seed)
+    gains = []
+    while not gains or gains[-1] > 0.0:
+        before = programme.cost()
+        gains.append(regroup(programme, programme._neighbourhood, 4, rng))
+        assert programme.cost() == pytest.approx(before - gains[-1])
+        assert nx.is_tree(nx.Graph(programme.edges))
+    assert gains[0] > 0.0
+    assert min(gains) == 0.0
