@@ -32,6 +32,7 @@ from tlcomm_core.ltl.rewriting import rewritten
         ("X X a R X b", "X (X a R b)"),
         ("(X a U X b) | !X (a U b)", "true"),
         ("F a & ((F a & b) | G c)", "F a & (b | G c)"),
+        ("((F a & b) | G c) & F a", "(b | G c) & F a"),
         ("F a & (X b | G !a)", "F a & X b"),
         ("G a | (b & (G a | c))", "G a | (b & c)"),
         ("a | (G b & (!a | c))", "a | G b"),
