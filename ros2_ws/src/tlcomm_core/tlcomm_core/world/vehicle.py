@@ -101,7 +101,9 @@ class Vehicle:
         it, until a new command or its odometry's time finds it outside all that is there now.
         """
         self._coming = obstacles
-        self._settle(now_ns)
+        pose = self.course.pose_at(now_ns)
+        if not obstacles.contain(pose.x_m, pose.y_m):
+            self._heed(obstacles, now_ns)
 
     def advance_to(self, now_ns: int) -> bool:
         """Stop if contact is made now.
@@ -131,12 +133,16 @@ class Vehicle:
         return self.odometry(now_ns)
 
     def _settle(self, now_ns: int) -> None:
-        """Heed the obstacles that have come, once the body is inside none of them."""
+        """Heed the obstacles that have come round the body, once it touches none of them."""
         pose = self.course.pose_at(now_ns)
-        if self._coming is not None and not self._coming.contain(pose.x_m, pose.y_m):
-            self._obstacles, self._coming = self._coming, None
-            until_ns = max(self._heartbeat_ns, now_ns)
-            self._contact_ns = self._obstacles.contact_ns(self.course, now_ns, until_ns)
+        # Where two of them meet it is inside neither.
+        if self._coming is not None and not self._coming.touch(pose.x_m, pose.y_m):
+            self._heed(self._coming, now_ns)
+
+    def _heed(self, obstacles: Obstacles, now_ns: int) -> None:
+        self._obstacles, self._coming = obstacles, None
+        until_ns = max(self._heartbeat_ns, now_ns)
+        self._contact_ns = obstacles.contact_ns(self.course, now_ns, until_ns)
 
     def _stop(self, now_ns: int) -> None:
         if self.course.moving:
