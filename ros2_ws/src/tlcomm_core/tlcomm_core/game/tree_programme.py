@@ -81,6 +81,41 @@ class TreeProgramme:
                 costs += self._message(other, agent)
         return costs
 
+    def costs_within(self, part: Sequence[int]) -> list[NDArray[np.float64]]:
+        """Return the least cost of a part of the tree by the place of each of its agents.
+
+        Args:
+            part: what lies behind an edge, as ``behind`` returns it: nearer agents first.
+
+        Returns:
+            float[Z] for each of the part, fresh.
+        """
+        beyond = frozenset(self._neighbours[part[0]]) - frozenset(part)
+        nearer: dict[int, frozenset[int]] = {part[0]: beyond}
+        above = {part[0]: np.zeros(len(self._neighbourhood))}
+        for agent in part:
+            for other in self._neighbours[agent]:
+                if other not in nearer[agent]:
+                    nearer[other] = frozenset((agent,))
+                    rest = self.costs_of(agent, nearer[agent] | {other}) + above[agent]
+                    above[other] = self._neighbourhood.least(rest)
+        return [self.costs_of(agent, nearer[agent]) + above[agent] for agent in part]
+
+    def behind(self, sender: int, receiver: int) -> list[int]:
+        """Return the sender and all that an edge parts from the receiver, nearer ones first."""
+        found = [(sender, receiver)]
+        for u, v in found:
+            found += [(w, u) for w in self._neighbours[u] if w != v]
+        return [u for u, _ in found]
+
+    def path(self, first: int, last: int) -> list[int]:
+        """Return the agents from one to another along the tree."""
+        before = {u: v for v, u in self._outward(first)}
+        path = [last]
+        while path[-1] != first:
+            path.append(before[path[-1]])
+        return path[::-1]
+
     def locations(self) -> tuple[int, ...]:
         """Return the cheapest placement; one must exist."""
         found = [0] * len(self.costs)
