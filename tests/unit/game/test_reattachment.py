@@ -25,7 +25,7 @@ def test_costs_fall_and_the_tree_stays_a_tree(seed: int) -> None:
     """A chain in the order of names is a poor tree; what is told is what a fresh programme has."""
     programme = chain(seed, 9)
     before = programme.cost()
-    reattach(programme, LINKS.neighbourhood)
+    programme = reattach(programme, LINKS.neighbourhood)
     assert programme.cost() < before
     assert nx.is_tree(nx.Graph(programme.edges))
     fresh = TreeProgramme(programme.costs, LINKS.neighbourhood, programme.edges)
@@ -38,7 +38,7 @@ def test_an_end_is_joined_to_whom_it_is_near() -> None:
     costs = np.linalg.norm(homes_m[:, None] - LATTICE, axis=2)
     programme = TreeProgramme(costs, LINKS.neighbourhood, [(0, 1), (1, 2), (2, 3)])
     assert programme.cost() > 0.5
-    reattach(programme, LINKS.neighbourhood)
+    programme = reattach(programme, LINKS.neighbourhood)
     assert programme.cost() == 0.0
     assert 2 not in programme.neighbours(3)
 
@@ -48,6 +48,6 @@ def test_the_best_tree_is_left_alone() -> None:
     homes_m = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]])
     costs = np.linalg.norm(homes_m[:, None] - LATTICE, axis=2)
     programme = TreeProgramme(costs, LINKS.neighbourhood, [(0, 1), (1, 2)])
-    reattach(programme, LINKS.neighbourhood)
+    programme = reattach(programme, LINKS.neighbourhood)
     assert programme.edges == ((0, 1), (1, 2))
     assert programme.cost() == 0.0

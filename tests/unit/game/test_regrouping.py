@@ -27,7 +27,7 @@ def sample(seed: int, team: int) -> TreeProgramme:
 def test_a_coalition_of_all_finds_the_optimum(seed: int) -> None:
     """One tree is as good as another to begin with."""
     programme = sample(seed, 5)
-    regroup(programme, programme._neighbourhood, 5, np.random.default_rng(0))
+    programme = regroup(programme, programme._neighbourhood, 5, np.random.default_rng(0))
     optimum = cheapest_placement(programme.costs, programme._neighbourhood)
     assert programme.cost() == pytest.approx(optimum.cost)
 
@@ -38,7 +38,7 @@ def test_costs_fall_until_nobody_gains(seed: int) -> None:
     programme, rng = sample(seed, 12), np.random.default_rng(seed)
     costs = [programme.cost()]
     for _ in range(6):
-        regroup(programme, programme._neighbourhood, 4, rng)
+        programme = regroup(programme, programme._neighbourhood, 4, rng)
         costs.append(programme.cost())
         assert nx.is_tree(nx.Graph(programme.edges))
     assert costs[1] < costs[0]

@@ -93,7 +93,7 @@ def test_a_changed_tree_forgets_what_it_changed(seed: int) -> None:
     programme.cost()
     for agent in range(6):
         programme.costs_of(agent)
-    programme.rejoin((1, 2, 3), ((1, 3), (3, 2)))
+    programme = programme.rejoined((1, 2, 3), ((1, 3), (3, 2)))
     fresh = TreeProgramme(programme.costs, programme._neighbourhood, programme.edges)
     assert set(map(frozenset, programme.edges)) == {
         frozenset(edge) for edge in ((0, 1), (1, 3), (3, 2), (3, 4), (1, 5))

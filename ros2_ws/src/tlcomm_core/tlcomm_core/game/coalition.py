@@ -66,7 +66,7 @@ class _Plan:
     close_look: _Effort
 
 
-_LARGE_TEAM: Final = _Plan(parts=10, glance=_Effort(6, 1), finalists=2, close_look=_Effort(1, 5))
+_LARGE_TEAM: Final = _Plan(parts=8, glance=_Effort(6, 1), finalists=2, close_look=_Effort(1, 5))
 # A coalition of everybody, which is the best for its bound, is what few enough agents can afford.
 _SMALL_TEAM: Final = _Plan(parts=6, glance=_Effort(6, 1), finalists=3, close_look=_Effort(2, 8))
 
@@ -188,9 +188,9 @@ class _Search:
         programme = self._programme(interval)
         if programme is None:
             return
-        reattach(programme, self._neighbourhood)
+        programme = reattach(programme, self._neighbourhood)
         if self._effort.size > 1:
-            regroup(programme, self._neighbourhood, self._effort.size, self._rng)
+            programme = regroup(programme, self._neighbourhood, self._effort.size, self._rng)
         cost_s, edges, locations = programme.cost(), programme.edges, programme.locations()
         tried = self._interval(interval.first_s, interval.last_s, cost_s, edges)
         earlier_s = self._costs.meeting_s(self._costs.profile(locations, tried.last_s))

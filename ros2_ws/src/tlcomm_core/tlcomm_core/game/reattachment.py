@@ -17,16 +17,19 @@ from tlcomm_core.game.tree_programme import TreeProgramme
 __all__ = ["reattach"]
 
 
-def reattach(programme: TreeProgramme, neighbourhood: Neighbourhood) -> None:
+def reattach(programme: TreeProgramme, neighbourhood: Neighbourhood) -> TreeProgramme:
     """Cut each edge of a tree in turn, and join the smaller part to whom it costs least.
 
     Where that is, is told from what the whole team costs by the place of each agent, less what the
     smaller part adds to it: exact for agents far from the cut, so that only the most promising
-    one has to be tried. The programme's cost never rises.
+    one has to be tried.
 
     Args:
-        programme: of a tree with a placement; changed in place.
+        programme: of a tree with a placement.
         neighbourhood: of the programme's places.
+
+    Returns:
+        The programme of the last tree, which costs no more.
 
     Cost: O(N²·Z + (N·log N + E)·Z·D), where E is the length of the paths on which the tree was
         changed, or tried to be.
@@ -34,46 +37,47 @@ def reattach(programme: TreeProgramme, neighbourhood: Neighbourhood) -> None:
     everyone = _costs_of_all(programme)
     for edge in programme.edges:
         part, rest = sorted((programme.behind(*edge), programme.behind(*edge[::-1])), key=len)
-        if _reattach(programme, neighbourhood, everyone, part, rest):
+        changed = _reattached(programme, neighbourhood, everyone, part, rest[0])
+        if changed is not None:
+            programme = changed
             everyone = _costs_of_all(programme)
+    return programme
 
 
 def _costs_of_all(programme: TreeProgramme) -> NDArray[np.float64]:
     return np.array([programme.costs_of(agent) for agent in range(programme.team)])
 
 
-def _reattach(
+def _reattached(
     programme: TreeProgramme,
     neighbourhood: Neighbourhood,
     everyone: NDArray[np.float64],
     part: Sequence[int],
-    rest: Sequence[int],
-) -> bool:
-    """Join a part of the tree to another agent of the rest; tell whether that gains anything.
+    rest: int,
+) -> TreeProgramme | None:
+    """Return the programme with a part of the tree joined to another agent, if that costs less.
 
-    Both begin with the end of the edge between them.
+    Now the first of the part is joined to agent ``rest``.
     """
     present = float(everyone[0].min())
-    alone = programme.costs_within(part)
-    added = present - float(programme.costs_of(rest[0], frozenset(part[:1])).min())
-    each, others = np.array(alone), everyone[list(rest)]
-    promised = others.min(axis=0) - added + neighbourhood.least(each.min(axis=0))
+    inside = list(part)
+    each = np.array(programme.costs_within(part))
+    nearest = each.min(axis=0)
+    added = present - float(programme.costs_of(rest, frozenset(part[:1])).min())
+    own, everyone[inside] = everyone[inside], np.inf
+    promised = everyone.min(axis=0) - added + neighbourhood.least(nearest)
     place = int(np.argmin(promised))
+    host = int(np.argmin(everyone[:, place]))
+    everyone[inside] = own
     if not promised[place] < present - CHANGE_TOLERANCE_S:
-        return False
-    host = rest[int(np.argmin(others[:, place]))]
-    onward = neighbourhood.cheapest(each.min(axis=0), place)
-    guest = part[int(np.argmin(each[:, onward]))]
-    return _is_better(programme, (rest[0], part[0]), (host, guest), present)
+        return None
+    guest = part[int(np.argmin(each[:, neighbourhood.cheapest(nearest, place)]))]
+    changed = _exchanged(programme, (rest, part[0]), (host, guest))
+    return changed if changed.cost() < present - CHANGE_TOLERANCE_S else None
 
 
-def _is_better(programme: TreeProgramme, cut: Edge, joint: Edge, present: float) -> bool:
-    """Replace an edge by another; take that back unless it gains something."""
+def _exchanged(programme: TreeProgramme, cut: Edge, joint: Edge) -> TreeProgramme:
+    """Return the programme with an edge replaced by another that joins the tree's two parts."""
     path = programme.path(*joint)
-    steps = [*pairwise(path)]
-    kept = [step for step in steps if frozenset(step) != frozenset(cut)]
-    programme.rejoin(path, [*kept, joint])
-    if programme.cost() < present - CHANGE_TOLERANCE_S:
-        return True
-    programme.rejoin(path, steps)
-    return False
+    kept = [step for step in pairwise(path) if frozenset(step) != frozenset(cut)]
+    return programme.rejoined(path, [*kept, joint])

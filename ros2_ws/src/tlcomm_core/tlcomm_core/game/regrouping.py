@@ -16,24 +16,29 @@ __all__ = ["regroup"]
 
 def regroup(
     programme: TreeProgramme, neighbourhood: Neighbourhood, size: int, rng: np.random.Generator
-) -> None:
+) -> TreeProgramme:
     """Join a coalition round each agent anew, one after the other.
 
     A coalition is a subtree. All that hangs on one of its members stays joined to this member and
     follows it, so that its cost is one of the member's. Then the programme over subsets finds the
-    best tree and the best places for the members at once; so the programme's cost never rises.
+    best tree and the best places for the members at once.
 
     Args:
-        programme: of a tree with a placement; changed in place.
+        programme: of a tree with a placement.
         neighbourhood: of the programme's places.
         size: members of a coalition; all agents make up a single one.
         rng: which subtrees are taken.
+
+    Returns:
+        The programme of the last tree, which costs no more.
 
     Cost: for each coalition O(3^size·Z + 2^size·Z·D), with Z the places that may gain anything.
     """
     size = min(size, programme.team)
     for first in range(programme.team if size < programme.team else 1):
-        _rejoin(programme, _coalition(programme, first, size, rng), neighbourhood)
+        members = _coalition(programme, first, size, rng)
+        programme = _rejoined(programme, members, neighbourhood) or programme
+    return programme
 
 
 def _coalition(
@@ -49,8 +54,10 @@ def _coalition(
     return members
 
 
-def _rejoin(programme: TreeProgramme, members: list[int], neighbourhood: Neighbourhood) -> None:
-    """Join the members of a subtree in the best way if that gains anything."""
+def _rejoined(
+    programme: TreeProgramme, members: list[int], neighbourhood: Neighbourhood
+) -> TreeProgramme | None:
+    """Return the programme with the members of a subtree joined best, if that costs less."""
     inside = frozenset(members)
     costs = np.array([programme.costs_of(member, inside) for member in members])
     present = programme.cost()
@@ -59,8 +66,9 @@ def _rejoin(programme: TreeProgramme, members: list[int], neighbourhood: Neighbo
     costs[costs - least[:, None] >= present - least.sum()] = np.inf
     kept = np.flatnonzero(np.isfinite(costs).any(axis=0))
     if not len(kept):
-        return
+        return None
     placement = cheapest_placement(costs[:, kept], neighbourhood.among(kept))
-    if placement.cost < present - CHANGE_TOLERANCE_S:
-        places = dict(zip(members, kept[list(placement.locations)].tolist(), strict=True))
-        programme.rejoin(members, spanning_tree(places, neighbourhood))
+    if not placement.cost < present - CHANGE_TOLERANCE_S:
+        return None
+    places = dict(zip(members, kept[list(placement.locations)].tolist(), strict=True))
+    return programme.rejoined(members, spanning_tree(places, neighbourhood))

@@ -1,6 +1,6 @@
 """The cheapest placement of a team along a spanning tree of its meeting graph.
 
-``TreeProgramme``  the placement, by messages along the tree; the tree may change bit by bit
+``TreeProgramme``  the placement, by messages along the tree
 """
 
 from collections.abc import Iterable, Sequence
@@ -19,7 +19,8 @@ class TreeProgramme:
 
     A message from agent u to its neighbour v says what it costs to place all that lies behind u, by
     the place of v: m_uv(z) = min over z' linked to z of c_u(z') + Σ_w m_wu(z'), over u's other
-    neighbours w. Messages are kept until the tree behind them changes.
+    neighbours w. Messages are computed when they are needed, and are kept where a tree is changed
+    elsewhere.
 
     Attributes:
         costs: float[N, Z], c_i(z); +inf where the agent can't be.
@@ -124,17 +125,21 @@ class TreeProgramme:
             found[u] = self._neighbourhood.cheapest(self._sums[u, v], found[v])
         return tuple(found)
 
-    def rejoin(self, members: Sequence[int], edges: Iterable[Edge]) -> None:
-        """Replace the edges among agents that form a subtree by those of another tree of them."""
+    def rejoined(self, members: Sequence[int], edges: Iterable[Edge]) -> "TreeProgramme":
+        """Return the programme of a tree with other edges among some agents.
+
+        Args:
+            members: agents that form a subtree.
+            edges: another tree of them, which takes its place.
+        """
         inside = frozenset(members)
-        kept = {(u, v) for v, u in self._outward(members[0]) if u not in inside}
-        for member in members:
-            self._neighbours[member] = [
-                other for other in self._neighbours[member] if other not in inside
-            ]
-        self._join(edges)
-        self._sums = {edge: self._sums[edge] for edge in kept if edge in self._sums}
-        self._messages = {edge: self._messages[edge] for edge in kept if edge in self._messages}
+        kept = [(u, v) for u, v in self.edges if not (u in inside and v in inside)]
+        other = TreeProgramme(self.costs, self._neighbourhood, [*kept, *edges])
+        for v, u in self._outward(members[0]):
+            if u not in inside and (u, v) in self._messages:
+                other._sums[u, v] = self._sums[u, v]
+                other._messages[u, v] = self._messages[u, v]
+        return other
 
     def _join(self, edges: Iterable[Edge]) -> None:
         for u, v in edges:
