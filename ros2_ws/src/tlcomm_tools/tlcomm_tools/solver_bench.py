@@ -35,8 +35,8 @@ class SolverRow:
         instances: their name.
         agents: N.
         count: how many instances.
-        agent_s: median processor time from the candidates to one agent's proposal; for best responses, to
-            the equilibrium, all agents in one place.
+        agent_s: median processor time from the candidates to one agent's proposal; for best
+            responses, to the equilibrium, all agents in one place.
         reference: what potentials are compared with: the solver that is the best there.
         mean_ratio: Φ over the reference's, in the mean.
         worst_ratio: the same, at worst.
