@@ -7,10 +7,13 @@ from pathlib import Path
 
 import pytest
 
+from tlcomm_core.agent.channel import LOST
+from tlcomm_core.game.solver import DEFAULT
 from tlcomm_core.mission import Mission
 from tlcomm_core.pace import Pace, parse_pace
 from tlcomm_core.records import event_log
 from tlcomm_core.scenario.loader import load_scenario
+from tlcomm_core.scenario.model import Radio, Scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate
 from tlcomm_core.world.observation import Odometry
@@ -24,12 +27,14 @@ LOCKSTEP = parse_pace("lockstep")
 SHARED_MEMORY = "/dev/shm/fastrtps"  # noqa: S108 (what Fast DDS leaves behind)
 
 
-def options_of(out: Path, rounds: int, pace: Pace = LOCKSTEP) -> RunOptions:
+def options_of(
+    out: Path, rounds: int, pace: Pace = LOCKSTEP, scenario: Scenario = SCENARIO
+) -> RunOptions:
     """Return a run of the corridor."""
     return RunOptions(
-        scenario=SCENARIO,
+        scenario=scenario,
         method="team",
-        solver="best-response",
+        solver=DEFAULT,
         seed=0,
         pace=pace,
         rounds=rounds,
@@ -103,8 +108,28 @@ def test_lock_step_run_equals_the_simulation(tmp_path: Path) -> None:
     )
     assert recorded.connectivity == expected.connectivity
     assert recorded.messages_sent == expected.messages_sent
+    assert recorded.messages_undelivered == expected.messages_undelivered
     assert segments == []
     assert processes(tmp_path) == {}
+
+
+def test_lock_step_run_over_a_bad_radio_equals_the_simulation(tmp_path: Path) -> None:
+    """With loss, jitter, copies and queues too the same falls, and the same goes unheard."""
+    radio = Radio(
+        loss=0.1, loss_at_range=0.4, jitter_s=0.05, duplication=0.1, bandwidth_bps=200_000.0
+    )
+    scenario = SCENARIO.model_copy(update={"radio": radio})
+    report = run_mission(options_of(tmp_path / "run", 2, scenario=scenario), lambda *_: None)
+    recorded = read_run(report.folder.bag).records
+    expected = simulate(Mission(Site.from_scenario(scenario), 0, 2, None)).records
+    assert list(event_log(recorded)) == list(event_log(expected))
+    assert recorded.messages_sent == expected.messages_sent
+    assert recorded.messages_undelivered == expected.messages_undelivered
+    lost = {name: counts[LOST] for name, counts in recorded.messages_undelivered.items()}
+    assert min(lost.values()) > 10
+    assert lost == {
+        name: own["messages_undelivered"][LOST] for name, own in report.result["agents"].items()
+    }
 
 
 def test_free_run_meets(tmp_path: Path) -> None:

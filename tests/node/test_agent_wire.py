@@ -15,12 +15,24 @@ from tlcomm_core.game.offer import MAX_STOPS, MemberOffer, PlannedStop
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.actions import SendMessage
-from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
+from tlcomm_core.protocol.messages import (
+    BestResponse,
+    Confirmation,
+    Message,
+    PlanOffer,
+    Proposal,
+)
+from tlcomm_core.protocol.size import size_bytes
 from tlcomm_core.records import RoundTiming, StrategyRecord, TaskRecord
 from tlcomm_core.world.observation import Connectivity, Odometry
 from tlcomm_msgs import msg
 from tlcomm_sim.wire import encode_connectivity, encode_odometry
-from tlcomm_tools.wire import read_round_timing, read_task_event, read_team_strategy
+from tlcomm_tools.wire import (
+    read_round_timing,
+    read_task_event,
+    read_team_strategy,
+    read_undelivered,
+)
 
 # Generated messages are opaque.
 RosMessage = Any
@@ -46,6 +58,17 @@ OFFERS = st.builds(
 )
 MESSAGES = st.one_of(
     st.builds(PlanOffer, NAMES, UINT32, NAME_TUPLES, st.lists(OFFERS, max_size=3).map(tuple)),
+    st.builds(
+        Proposal,
+        NAMES,
+        UINT32,
+        UINT32,
+        st.integers(0, 2**16 - 1),
+        NAMES,
+        FLOATS,
+        FLOATS | st.just(-math.inf),
+        st.lists(STRATEGIES, max_size=4).map(tuple),
+    ),
     st.builds(
         BestResponse, NAMES, UINT32, UINT32, st.integers(0, 2**16 - 1), NAMES, FLOATS, STRATEGIES
     ),
@@ -124,14 +147,38 @@ def test_drive() -> None:
     assert (message.twist.linear.y, message.twist.angular.x) == (0.0, 0.0)
 
 
-@given(st.sets(st.sampled_from([(i, j) for i in range(4) for j in range(i + 1, 4)])))
-def test_neighbours(edges: set[tuple[int, int]]) -> None:
-    """Of a connectivity an agent learns who is on the other end of its own edges."""
-    names = ("a", "b", "c", "d")
-    message = encode_connectivity(Connectivity(7, tuple(sorted(edges)), False), 1.0, names)
+@given(
+    st.dictionaries(
+        st.sampled_from([(i, j) for i in range(4) for j in range(i + 1, 4)]), st.floats(0.0, 1.0)
+    )
+)
+def test_neighbours(lengths_m: dict[tuple[int, int], float]) -> None:
+    """Of a connectivity an agent learns who is on the other end of its own edges, how far away."""
+    names, edges = ("a", "b", "c", "d"), tuple(sorted(lengths_m))
+    seen = Connectivity(7, edges, False, tuple(lengths_m[edge] for edge in edges))
+    message = encode_connectivity(seen, 1.0, names)
     for own, name in enumerate(names):
-        near = {names[i + j - own] for i, j in edges if own in (i, j)}
+        near = {names[i + j - own]: lengths_m[i, j] for i, j in edges if own in (i, j)}
         assert wire.decode_neighbours(over_the_wire(message), name) == (near, 7)
+
+
+def test_without_distances_neighbours_are_at_the_range() -> None:
+    """A world that doesn't tell how far apart agents are is taken to mean the worst."""
+    message = encode_connectivity(Connectivity(7, ((0, 1),), False), 1.5, ("a", "b"))
+    assert wire.decode_neighbours(over_the_wire(message), "a") == ({"b": 1.5}, 7)
+
+
+@given(st.dictionaries(NAMES, UINT32))
+def test_counts_of_undelivered_messages_survive(counts: dict[str, int]) -> None:
+    """Reasons and counts read from a bag as they were."""
+    encoded = over_the_wire(wire.encode_undelivered(counts, "a", 7))
+    assert (encoded.agent, read_undelivered(encoded)) == ("a", counts)
+
+
+@given(MESSAGES, STAMPS_NS)
+def test_the_core_knows_how_long_messages_are(message: Message, stamp_ns: int) -> None:
+    """Counted without ROS, a message has as many bytes as it has when ROS sends it."""
+    assert size_bytes(message) == len(serialize_message(wire.encode_message(message, stamp_ns)))
 
 
 def offer_message() -> RosMessage:
@@ -196,6 +243,8 @@ def test_malformed_messages_are_refused(message: RosMessage, path: str, value: o
         msg.Connectivity(agents=["a", "b"], edges=[0]),
         msg.Connectivity(agents=["a", "b"], edges=[0, 2]),
         msg.Connectivity(agents=["a", ""], edges=[0, 1]),
+        msg.Connectivity(agents=["a", "b"], edges=[0, 1], distances=[1.0, 2.0]),
+        msg.Connectivity(agents=["a", "b"], edges=[0, 1], distances=[math.nan]),
     ],
 )
 def test_malformed_connectivity_is_refused(message: RosMessage) -> None:

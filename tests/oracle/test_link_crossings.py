@@ -5,7 +5,17 @@ from bisect import bisect_right
 import numpy as np
 import pytest
 
-from support.random_world import Command, played, random_commands, random_world
+from support.random_world import (
+    PILLARS,
+    SIZE_M,
+    Command,
+    played,
+    random_commands,
+    random_pillars,
+    random_world,
+)
+from tlcomm_core.workspace.grid import Grid
+from tlcomm_core.workspace.sight import sightlines
 from tlcomm_core.world.observation import Connectivity, Observation, Odometry
 from tlcomm_core.world.radio import links
 from tlcomm_core.world.unicycle import integrate
@@ -15,6 +25,10 @@ RANGE_M = 1.5
 SAMPLE_NS = 1_000_000
 # Crossings that are shorter than the world's sampling of arcs may be missing, with depths below.
 SLACK_M = {False: 1e-8, True: 2e-4}
+SIGHT_SLACK_M = {False: 1e-8, True: 2e-4}
+SIGHT_RANGE_M = 3.0
+SIGHT_SEEDS = range(4)
+GRID = Grid((SIZE_M, SIZE_M), 0.5, PILLARS)
 
 
 def places_m(seen: list[Observation], times_ns: list[int]) -> np.ndarray:
@@ -50,6 +64,41 @@ def test_links_are_right_at_every_millisecond(seed: int, arcs: bool) -> None:
     for place_m, edges in zip(places, claimed, strict=True):
         assert set(links(place_m, RANGE_M - SLACK_M[arcs])) <= edges
         assert edges <= set(links(place_m, RANGE_M + SLACK_M[arcs]))
+
+
+def pairs_in_sight(place_m: np.ndarray, slack_m: float) -> set[tuple[int, int]]:
+    """Return the pairs within range and in sight; fewer with a negative slack, or more."""
+    near = np.array(links(place_m, SIGHT_RANGE_M + slack_m), dtype=int).reshape(-1, 2)
+    seen = sightlines(GRID, place_m[near[:, 0]], place_m[near[:, 1]], -slack_m)
+    return {(i, j) for i, j in near[seen].tolist()}
+
+
+@pytest.mark.parametrize("arcs", [False, True])
+@pytest.mark.parametrize("seed", SIGHT_SEEDS)
+def test_links_in_sight_are_right_at_every_millisecond(seed: int, arcs: bool) -> None:
+    """Among pillars exactly the pairs within range and in sight are linked."""
+    commands: list[Command] = list(random_commands(seed, COUNT, 25, arcs=arcs))
+    seen = played(random_pillars(seed, COUNT), commands)
+    times_ns = list(range(0, commands[-1].time_ns, SAMPLE_NS))
+    places = places_m(seen, times_ns)
+    claimed = edges_at(seen, times_ns)
+    for place_m, edges in zip(places, claimed, strict=True):
+        assert pairs_in_sight(place_m, -SIGHT_SLACK_M[arcs]) <= edges
+        assert edges <= pairs_in_sight(place_m, SIGHT_SLACK_M[arcs])
+
+
+def test_the_pillars_hide_agents() -> None:
+    """Over the seeds pairs within range are hidden, and links come and go: it isn't vacuous."""
+    hidden, edge_sets = 0, set()
+    for seed in SIGHT_SEEDS:
+        commands = list(random_commands(seed, COUNT, 25, arcs=False))
+        seen = played(random_pillars(seed, COUNT), commands)
+        stamps = [one.stamp_ns for one in seen if isinstance(one, Connectivity)]
+        for place_m, edges in zip(places_m(seen, stamps), edges_at(seen, stamps), strict=True):
+            hidden += len(set(links(place_m, SIGHT_RANGE_M - 1e-6)) - edges)
+            edge_sets.add(frozenset(edges))
+    assert hidden > 10
+    assert len(edge_sets) > 10
 
 
 @pytest.mark.parametrize("arcs", [False, True])

@@ -1,8 +1,8 @@
 """Who leaves when the meeting is over, and who then still lacks the last word.
 
-Agreement over a lossy network can't be had for certain by a fixed time: whoever holds the
-strategy leaves at t_c + D_c, and a neighbour that lost its last confirmation stays. These tests
-pin down how far that goes.
+Agreement over a lossy network can't be had for certain by a fixed time: of two neighbours one may
+hold the strategy as agreed and leave, and the other lack its last word. These tests say what the
+negotiation does about that; where agents go then is ``test_reunion``'s.
 """
 
 import math
@@ -11,6 +11,7 @@ import pytest
 
 from support.fake_network import FakeNetwork, Faults
 from support.meetings import Meeting, sample_meeting
+from tlcomm_core.protocol.actions import HoldStrategy
 from tlcomm_core.protocol.messages import Confirmation
 from tlcomm_core.protocol.negotiation import Phase
 
@@ -22,8 +23,8 @@ def network_of(meeting: Meeting, faults: Faults, seed: int = 0) -> FakeNetwork:
 
 @pytest.fixture
 def left_behind() -> FakeNetwork:
-    """Return a line of two after the meeting: the first lost all complete confirmations of the
-    second, which has left.
+    """Return a line of two after the meeting: the first lost all confirmations of the second,
+    which has left.
     """
     meeting = sample_meeting("line", 2, 1)
     network = network_of(meeting, Faults())
@@ -36,13 +37,17 @@ def left_behind() -> FakeNetwork:
     return network
 
 
-def test_who_lacks_the_last_confirmation_stays_behind(left_behind: FakeNetwork) -> None:
-    """It never holds a strategy that it can't know to be held by all, and goes on asking."""
+def test_who_lacks_the_last_confirmation_stays_in_doubt(left_behind: FakeNetwork) -> None:
+    """It never holds as agreed what it can't know all to have confirmed; it goes on asking, and
+    has what it has promised to go by.
+    """
     left_behind.is_cut = lambda _time_s, _receiver, _message: False
     left_behind.run(left_behind.now_s + 60.0)
     last = left_behind.agents["agent_00"]
     assert last.phase is Phase.CONFIRMING
     assert last.agreed is None
+    (held,) = [e.action for e in left_behind.transcript if isinstance(e.action, HoldStrategy)]
+    assert last.confirmed == held.strategy
     assert last.next_need_s < math.inf
 
 

@@ -1,7 +1,7 @@
 """A run made by hand: two agents on a line, two windows kept, both tasks satisfied twice."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +26,7 @@ __all__ = [
     "END_S",
     "MESSAGES",
     "SHARE",
+    "UNDELIVERED",
     "hand_made_records",
     "hand_made_scenario",
     "serialize_run",
@@ -37,6 +38,7 @@ SHARE = Path(__file__).parents[2] / "ros2_ws" / "src" / "tlcomm_msgs"
 AGENTS = ("east", "west")
 END_S = 25.0
 MESSAGES = {"east": 3, "west": 2}
+UNDELIVERED: Mapping[str, Mapping[str, int]] = {"east": {"out of range": 5, "lost": 2}, "west": {}}
 
 _SCENARIO = """
 name: line
@@ -69,7 +71,10 @@ def hand_made_scenario() -> Scenario:
 
 def hand_made_records() -> RunRecords:
     """Return fresh records of 25 s, of which a test may change anything."""
-    records = RunRecords(messages_sent=dict(MESSAGES))
+    records = RunRecords(
+        messages_sent=dict(MESSAGES),
+        messages_undelivered={agent: dict(counts) for agent, counts in UNDELIVERED.items()},
+    )
     for number in (0, 1):
         _add_round(records, number)
     for agent in AGENTS:
@@ -196,6 +201,10 @@ def serialize_run(store: Typestore, records: RunRecords) -> Iterable[tuple[str, 
     ]
     rows += [(f"/{own.agent}/round_timing", 0, make.timing(own)) for own in records.timings]
     rows += [
+        (f"/{agent}/undelivered", nanoseconds(22.0), make.undelivered(agent, counts))
+        for agent, counts in records.messages_undelivered.items()
+    ]
+    rows += [
         (f"/{agent}/confirmation", 0, make.confirmation(agent))
         for agent, count in records.messages_sent.items()
         for _ in range(count)
@@ -255,6 +264,7 @@ class _Messages:
             range=1.0,
             agents=list(AGENTS),
             edges=np.array([end for edge in own.edges for end in edge], dtype=np.uint16),
+            distances=np.array(own.distances_m, dtype=np.float64),
             connected=own.connected,
         )
 
@@ -305,6 +315,15 @@ class _Messages:
             solve_wall=own.solve_wall_s,
             offered_at=self._stamp(nanoseconds(own.offered_wall_s)),
             agreed_at=self._stamp(nanoseconds(own.agreed_wall_s)),
+        )
+
+    def undelivered(self, agent: str, counts: Mapping[str, int]) -> bytes:
+        return self._bytes(
+            "tlcomm_msgs/msg/Undelivered",
+            header=self._header(nanoseconds(22.0)),
+            agent=agent,
+            reasons=list(counts),
+            counts=np.array(list(counts.values()), dtype=np.uint64),
         )
 
     def confirmation(self, agent: str) -> bytes:

@@ -111,9 +111,9 @@ class InProcessTeam:
     def _show_connectivity(self, connectivity: Connectivity) -> None:
         names = list(self.members)
         for index, name in enumerate(names):
-            near = {i + j - index for i, j in connectivity.edges if index in (i, j)}
-            neighbours = frozenset(names[other] for other in near)
-            self.members[name].see_neighbours(connectivity.stamp_ns, neighbours)
+            pairs = zip(connectivity.edges, connectivity.distances_m, strict=True)
+            near = {names[i + j - index]: apart_m for (i, j), apart_m in pairs if index in (i, j)}
+            self.members[name].see_neighbours(connectivity.stamp_ns, near)
 
     def _act(self, name: str, tick: Tick) -> None:
         counts, member = self.counts[name], self.members[name]

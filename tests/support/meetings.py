@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import InfeasibleRoundError
@@ -57,6 +58,11 @@ class SampleRounds:
     """Poses one problem, whatever is offered."""
 
     problem_: RoundProblem
+
+    def sightings(self, offers: Sequence[MemberOffer]) -> tuple[NDArray[np.bool_], ...]:
+        """Return that nobody has to see another."""
+        assert offers
+        return ()
 
     def is_sound(self, offer: MemberOffer) -> bool:
         """Return whether the offer has two stops and a place, as a real one must."""

@@ -11,6 +11,9 @@ from tlcomm_core.world.observation import Observation
 from tlcomm_core.world.world import Body, Noise, World
 
 BOXES: tuple[Box, ...] = ((2.0, 2.0, 3.0, 3.0), (3.0, 2.5, 4.5, 3.0))
+PILLARS: tuple[Box, ...] = tuple(
+    (x_m, y_m, x_m + 0.5, y_m + 0.5) for x_m in (1.0, 2.5, 4.0) for y_m in (1.0, 2.5, 4.0)
+)
 SIZE_M = 6.0
 
 
@@ -26,14 +29,25 @@ class Command:
 
 def random_world(seed: int, count: int, noise: Noise | None = None) -> World:
     """Return a crowded world of 6 m × 6 m, R = 1.5 m, with two obstacles."""
+    return _random_world(seed, count, Grid((SIZE_M, SIZE_M), 0.5, BOXES), 1.5, noise or Noise())
+
+
+def random_pillars(seed: int, count: int) -> World:
+    """Return a world of 6 m × 6 m full of pillars that hide agents from each other, R = 3 m."""
+    grid = Grid((SIZE_M, SIZE_M), 0.5, PILLARS)
+    return _random_world(seed, count, grid, 3.0, Noise(), line_of_sight=True)
+
+
+def _random_world(
+    seed: int, count: int, grid: Grid, range_m: float, noise: Noise, *, line_of_sight: bool = False
+) -> World:
     rng = np.random.default_rng(seed)
-    grid = Grid((SIZE_M, SIZE_M), 0.5, BOXES)
     places = rng.choice(grid.locations_m, count, replace=False)
     bodies = [
         Body(f"agent_{index}", Pose(x_m, y_m, rng.uniform(-3.0, 3.0)), 1.0, 1.5)
         for index, (x_m, y_m) in enumerate(places.tolist())
     ]
-    return World(bodies, grid, 1.5, noise or Noise(), rng)
+    return World(bodies, grid, range_m, noise, rng, line_of_sight=line_of_sight)
 
 
 def random_commands(

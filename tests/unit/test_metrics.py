@@ -139,8 +139,19 @@ def test_an_agents_figures() -> None:
         "makespan_s": pytest.approx(10.0),
         "distance_m": pytest.approx(10.0),
         "messages_sent": MESSAGES["east"],
+        "messages_undelivered": {"lost": 2, "out of range": 5},
     }
+    assert agents["west"]["messages_undelivered"] == {}
     assert agents["west"]["distance_m"] == pytest.approx(8.0)
+
+
+def test_what_nobody_counted_is_unknown() -> None:
+    """Records without counts of messages give null, not 0."""
+    records = hand_made_records()
+    records.messages_sent.clear()
+    records.messages_undelivered.clear()
+    own = document(records)["agents"]["west"]
+    assert (own["messages_sent"], own["messages_undelivered"]) == (None, None)
 
 
 def test_one_satisfaction_has_no_makespan() -> None:

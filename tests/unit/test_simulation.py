@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from tlcomm_core.agent.actions import TaskEventKind
+from tlcomm_core.agent.channel import Channel
 from tlcomm_core.agent.radio import Radio
 from tlcomm_core.geometry import Pose
 from tlcomm_core.mission import Mission
@@ -280,21 +281,21 @@ def most_distance_heard_m(label: str, monkeypatch: pytest.MonkeyPatch) -> float:
     names = iter(scenario_of(label).agents)
     heard: list[tuple[int, str, str]] = []
     owners: dict[int, str] = {}
-    make, filter_ = Radio.__init__, Radio._is_in_range
+    make, filter_ = Radio.__init__, Radio._distance_m
 
-    def init(radio: Radio, latency_ns: int) -> None:
-        make(radio, latency_ns)
+    def init(radio: Radio, latency_ns: int, channel: Channel, unlinked: str) -> None:
+        make(radio, latency_ns, channel, unlinked)
         # Members are made in the scenario's order.
         owners[id(radio)] = next(names)
 
-    def is_in_range(radio: Radio, message: Message, due_ns: int) -> bool:
-        is_let_through = filter_(radio, message, due_ns)
-        if is_let_through:
-            heard.append((due_ns, owners[id(radio)], message.sender))
-        return is_let_through
+    def distance_m(radio: Radio, sender: str, due_ns: int) -> float | None:
+        found_m = filter_(radio, sender, due_ns)
+        if found_m is not None:
+            heard.append((due_ns, owners[id(radio)], sender))
+        return found_m
 
     monkeypatch.setattr(Radio, "__init__", init)
-    monkeypatch.setattr(Radio, "_is_in_range", is_in_range)
+    monkeypatch.setattr(Radio, "_distance_m", distance_m)
     tracks = Tracks(simulate(mission_of(label)))
     assert len(heard) > 100
     return max(
@@ -315,7 +316,7 @@ def test_nothing_is_heard_from_out_of_range(monkeypatch: pytest.MonkeyPatch) -> 
 
 def test_without_the_filter_it_would_be_heard(monkeypatch: pytest.MonkeyPatch) -> None:
     """The same measurement with the filter taken out finds what comes from far away."""
-    monkeypatch.setattr(Radio, "_is_in_range", lambda *_: True)
+    monkeypatch.setattr(Radio, "_distance_m", lambda *_: 0.0)
     range_m = scenario_of("corridor").communication.range_m
     assert most_distance_heard_m("corridor", monkeypatch) > 2.0 * range_m
 
@@ -323,7 +324,7 @@ def test_without_the_filter_it_would_be_heard(monkeypatch: pytest.MonkeyPatch) -
 def test_the_filter_decides_what_agents_do(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without it agents know of each other from afar, and the run is another."""
     expected = log_of(run("corridor"))
-    monkeypatch.setattr(Radio, "_is_in_range", lambda *_: True)
+    monkeypatch.setattr(Radio, "_distance_m", lambda *_: 0.0)
     assert log_of(simulate(mission_of("corridor"))) != expected
 
 

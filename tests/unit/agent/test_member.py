@@ -3,14 +3,16 @@
 import pytest
 
 from support.hall import STARTS, hall, make_member
-from tlcomm_core.agent.actions import Action, CountIgnored, Drive, SendMessage
+from tlcomm_core.agent.actions import CountIgnored, Drive, SendMessage
 from tlcomm_core.agent.controller import Pacing
-from tlcomm_core.agent.member import Member, create
+from tlcomm_core.agent.member import Member, create, team_of
 from tlcomm_core.errors import PlanningError
+from tlcomm_core.game.rules import Rules
 from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.protocol.negotiation import Phase
 from tlcomm_core.scenario.loader import dumps, loads
+from tlcomm_core.scenario.model import Radio
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.workspace.atlas import Atlas
@@ -22,7 +24,7 @@ def placed(name: str, count: int, pacing: Pacing = Pacing.EVENT) -> Member:
     """Return a member that has seen its start and everybody in range."""
     member = make_member(name, count, pacing)
     member.see_odometry(0, Pose(*STARTS[name]), 0.0, 0.0)
-    member.see_neighbours(0, frozenset(STARTS) - {name})
+    member.see_neighbours(0, dict.fromkeys(STARTS.keys() - {name}, 1.0))
     return member
 
 
@@ -89,17 +91,35 @@ def test_free_running_a_message_is_heard_when_it_comes() -> None:
 def test_who_is_out_of_range_is_not_heard() -> None:
     """Nothing that it says has any effect but to be counted."""
     one, two, alone = placed("one", 2), placed("two", 2), placed("one", 2)
-    one.see_neighbours(1, frozenset())
+    one.see_neighbours(1, {})
     for message in said(two, 0):
         one.receive(message, 0)
-    counted: list[Action] = []
     for now_ns in (0, LATENCY_NS, 10 * LATENCY_NS):
-        actions = one.step(now_ns)
-        counted += [action for action in actions if isinstance(action, CountIgnored)]
-        effects = tuple(action for action in actions if not isinstance(action, CountIgnored))
-        assert effects == alone.step(now_ns)
+        assert one.step(now_ns) == alone.step(now_ns)
         assert one.next_need_ns == alone.next_need_ns
-    assert counted == [CountIgnored("out of range")]
+    assert (one.undelivered, alone.undelivered) == ({"out of range": 1}, {})
+
+
+def test_it_asks_to_be_woken_for_what_is_still_under_way() -> None:
+    """A message delayed at random is heard when it is due, not when something else happens."""
+    site = hall(2)
+    radio = Radio(jitter_s=0.05)
+    late = Site.from_scenario(site.scenario.model_copy(update={"radio": radio}))
+    one = create("one", late, Pacing.EVENT, Atlas(site.grid))
+    two = placed("two", 2)
+    one.see_odometry(0, Pose(*STARTS["one"]), 0.0, 0.0)
+    one.see_neighbours(0, {"two": 0.5})
+    for message in said(two, 0):
+        one.receive(message, 0)
+    one.step(0)
+    one.step(LATENCY_NS)
+    due_ns = one._radio.next_due_ns
+    assert due_ns is not None
+    while (need_ns := one.next_need_ns) is not None and need_ns < due_ns:
+        assert all(repeated.known == ("one",) for repeated in said(one, need_ns))  # type: ignore[union-attr]
+    assert need_ns == due_ns
+    (offer, *_) = said(one, due_ns)
+    assert offer.known == ("one", "two")  # type: ignore[union-attr]
 
 
 def test_it_counts_what_is_said_to_it_on_the_way() -> None:
@@ -137,3 +157,16 @@ def test_an_impossible_task_is_refused() -> None:
     site = Site.from_scenario(loads(text))
     with pytest.raises(PlanningError):
         create("one", site, Pacing.EVENT, Atlas(site.grid))
+
+
+def test_a_team_knows_what_its_scenario_demands_of_meetings() -> None:
+    """Rules, margin and clearance, which is what an agent may be off."""
+    site = hall(2)
+    demands = {"separation_m": 0.5, "resilience": 1, "margin_s": 2.0}
+    communication = site.scenario.communication.model_copy(update=demands)
+    scenario = site.scenario.model_copy(
+        update={"communication": communication, "radio": Radio(line_of_sight=True)}
+    )
+    team = team_of(Site.from_scenario(scenario))
+    assert (team.rules, team.margin_s, team.clearance_m) == (Rules(0.5, 1), 2.0, 0.02)
+    assert team_of(site).clearance_m is None

@@ -2,11 +2,14 @@
 
 from itertools import permutations
 
-from tlcomm_core.agent.radio import Radio
+from tlcomm_core.agent.channel import LOST, Channel, Passage
+from tlcomm_core.agent.radio import OUT_OF_RANGE, Radio
 from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
+from tlcomm_core.scenario import model
 
 LATENCY_NS = 5
+CLEAR = Channel(model.Radio(), 1.0, 0, "me")
 STRATEGY = Strategy("a", 0.0, 0.0, 1, 10.0, 0.0)
 
 
@@ -17,11 +20,11 @@ def offer(sender: str, round_: int = 1) -> PlanOffer:
 
 def radio(**neighbours_since: int) -> Radio:
     """Return a radio that is in range of each agent from a time on, given in ascending order."""
-    made = Radio(LATENCY_NS)
-    near: set[str] = set()
+    made = Radio(LATENCY_NS, CLEAR)
+    near: dict[str, float] = {}
     for name, since_ns in neighbours_since.items():
-        near.add(name)
-        made.see_neighbours(since_ns, frozenset(near))
+        near[name] = 0.5
+        made.see_neighbours(since_ns, dict(near))
     return made
 
 
@@ -31,17 +34,17 @@ def test_only_neighbours_are_heard() -> None:
     made.receive(offer("near"), 0)
     made.receive(offer("far"), 0)
     assert made.heard(LATENCY_NS) == [offer("near")]
-    assert made.out_of_range == 1
-    made.see_neighbours(6, frozenset({"near", "far"}))
+    assert made.undelivered == {OUT_OF_RANGE: 1}
+    made.see_neighbours(6, {"near": 0.5, "far": 1.0})
     assert made.heard(100) == []
 
 
 def test_nobody_is_heard_before_a_neighbour_is_known() -> None:
     """Without any word of who is in range, nobody is."""
-    made = Radio(LATENCY_NS)
+    made = Radio(LATENCY_NS, CLEAR)
     made.receive(offer("a"), 0)
     assert made.heard(LATENCY_NS) == []
-    assert made.out_of_range == 1
+    assert made.undelivered == {OUT_OF_RANGE: 1}
 
 
 def test_a_message_takes_its_latency() -> None:
@@ -58,7 +61,7 @@ def test_range_counts_at_the_arrival() -> None:
     made = radio(a=0)
     made.receive(offer("a"), 10)
     made.receive(offer("b"), 10)
-    made.see_neighbours(12, frozenset({"b"}))
+    made.see_neighbours(12, {"b": 0.5})
     assert made.heard(15) == [offer("b")]
 
 
@@ -66,7 +69,7 @@ def test_a_change_at_the_very_arrival_counts() -> None:
     """A neighbourhood holds from its stamp on, that instant included."""
     made = radio(a=0)
     made.receive(offer("a"), 10)
-    made.see_neighbours(15, frozenset())
+    made.see_neighbours(15, {})
     assert made.heard(15) == []
 
 
@@ -75,14 +78,14 @@ def test_a_change_after_the_arrival_does_not_count() -> None:
     made = radio(a=0)
     made.receive(offer("a"), 10)
     made.receive(offer("b"), 10)
-    made.see_neighbours(16, frozenset({"b"}))
+    made.see_neighbours(16, {"b": 0.5})
     assert made.heard(9_000_000_000) == [offer("a")]
 
 
 def test_a_message_slow_to_come_is_judged_by_its_time() -> None:
     """Free running, it may be taken off the air after links changed and others were heard."""
     made = radio(a=0)
-    made.see_neighbours(16, frozenset({"b"}))
+    made.see_neighbours(16, {"b": 0.5})
     assert made.heard(20) == []
     made.receive(offer("a"), 10)
     made.receive(offer("b"), 10)
@@ -93,7 +96,7 @@ def test_a_message_older_than_the_memory_is_not_heard() -> None:
     """What can't be judged any more isn't let through."""
     made = radio(a=0)
     for second in range(1, 30):
-        made.see_neighbours(second * 1_000_000_000, frozenset({"a"}))
+        made.see_neighbours(second * 1_000_000_000, {"a": 0.5})
         assert made.heard(second * 1_000_000_000) == []
     made.receive(offer("a"), 1_000_000_000)
     made.receive(offer("a", 2), 28_000_000_000)
@@ -102,9 +105,9 @@ def test_a_message_older_than_the_memory_is_not_heard() -> None:
 
 def test_memory_is_bounded() -> None:
     """A radio that is told of its neighbours for ever keeps the latest only."""
-    made = Radio(LATENCY_NS)
+    made = Radio(LATENCY_NS, CLEAR)
     for second in range(1000):
-        made.see_neighbours(second * 1_000_000_000, frozenset({"a"}))
+        made.see_neighbours(second * 1_000_000_000, {"a": 0.5})
         made.heard(second * 1_000_000_000)
     assert len(made._since_ns) == len(made._neighbours) < 20
 
@@ -131,3 +134,51 @@ def test_messages_of_one_topic_keep_their_order() -> None:
     made.receive(offer("a", 2), 10)
     made.receive(offer("a", 1), 10)
     assert made.heard(15) == [offer("a", 2), offer("a", 1)]
+
+
+class Staged(Channel):
+    """A channel that does what a test says, by sender."""
+
+    def __init__(self, passages: dict[str, Passage]) -> None:
+        self._passages = passages
+
+    def carry(self, message: Message, sent_ns: int, distance_m: float) -> Passage:
+        """Return the passage of whoever is the sender."""
+        del sent_ns, distance_m
+        return self._passages[message.sender]
+
+
+def test_what_the_channel_delays_is_heard_later_and_out_of_turn() -> None:
+    """A copy comes after the fixed latency and its own delay; the radio tells when."""
+    made = Radio(LATENCY_NS, Staged({"a": Passage((7,)), "b": Passage((2, 9))}))
+    made.see_neighbours(0, {"a": 0.5, "b": 0.5})
+    made.receive(offer("a"), 10)
+    made.receive(offer("b"), 11)
+    assert made.next_due_ns is None
+    assert made.heard(17) == []
+    assert made.next_due_ns == 18
+    assert made.heard(18) == [offer("b")]
+    assert made.heard(22) == [offer("a")]
+    assert made.next_due_ns == 25
+    assert made.heard(30) == [offer("b")]
+    assert made.next_due_ns is None
+
+
+def test_what_the_channel_loses_is_counted_with_its_reason() -> None:
+    """It is never heard; what comes from out of range doesn't ask the channel."""
+    made = Radio(LATENCY_NS, Staged({"a": Passage((), LOST)}), "too far")
+    made.see_neighbours(0, {"a": 0.5})
+    made.receive(offer("a"), 10)
+    made.receive(offer("c"), 10)
+    assert made.heard(100) == []
+    assert made.undelivered == {LOST: 1, "too far": 1}
+
+
+def test_who_was_near_when_the_latency_had_passed_is_heard_however_late() -> None:
+    """A random delay is no second chance to get out of range, nor into it."""
+    made = Radio(LATENCY_NS, Staged({"a": Passage((50,)), "b": Passage((50,))}))
+    made.see_neighbours(0, {"a": 0.5})
+    made.receive(offer("a"), 10)
+    made.receive(offer("b"), 10)
+    made.see_neighbours(20, {"b": 0.5})
+    assert made.heard(100) == [offer("a")]

@@ -7,7 +7,9 @@ import pytest
 
 from support.hall import hall, make_member
 from tlcomm_core.agent.rounds import MeetingRounds
-from tlcomm_core.game.offer import MemberOffer, next_stops
+from tlcomm_core.game.algorithm import solve
+from tlcomm_core.game.exact import solve_exactly
+from tlcomm_core.game.offer import MemberOffer, PlannedStop, next_stops
 from tlcomm_core.game.rules import Rules
 from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.team import Team
@@ -59,6 +61,22 @@ def test_each_members_own_speeds_count(offer: MemberOffer) -> None:
     both = np.isfinite(fast_table.arrival_s[:rows]) & np.isfinite(slow_table.arrival_s[:rows])
     assert (fast_table.arrival_s[:rows][both] <= slow_table.arrival_s[:rows][both] + 1e-9).all()
     assert (fast_table.arrival_s[:rows][both] < slow_table.arrival_s[:rows][both] - 0.5).any()
+
+
+@pytest.mark.parametrize("slow", ["one", "two"])
+def test_the_team_meets_where_the_slow_member_is(slow: str) -> None:
+    """Of two at the ends of the hall, with nothing to do elsewhere, the faster one comes."""
+    homes_m = {"one": 0.75, "two": 5.25}
+    offers = []
+    for name, x_m in homes_m.items():
+        stops = tuple(PlannedStop(index, x_m, 0.75, 0.0, 5.0 * index) for index in range(2))
+        speed_mps = 0.25 if name == slow else 1.0
+        offers.append(MemberOffer(name, 0.0, x_m, 0.75, 0.0, speed_mps, 1.5, stops))
+    problem = ROUNDS.problem(1, 3.0, offers)
+    solution = solve(problem)
+    for profile in (solution.nash, solve_exactly(problem, solution.initial).profile):
+        places_m = problem.locations_m[list(profile.location), 0]
+        assert np.abs(places_m - homes_m[slow]).max() <= 1.0
 
 
 def test_all_members_are_reckoned_with_the_allowance(offer: MemberOffer) -> None:

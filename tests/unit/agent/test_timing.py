@@ -43,7 +43,7 @@ class Timed:
         """Stand at the start."""
         self.member = make_member(self.name, 2)
         self.member.see_odometry(0, Pose(*STARTS[self.name]), 0.0, 0.0)
-        self.member.see_neighbours(0, frozenset(STARTS) - {self.name})
+        self.member.see_neighbours(0, dict.fromkeys(STARTS.keys() - {self.name}, 1.0))
         self._timed = TimedMember(self.member, self.clocks.steady, self.clocks.wall)
 
     def step(self, now_ns: int) -> list[Message]:

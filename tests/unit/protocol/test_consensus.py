@@ -82,12 +82,11 @@ def test_no_exchange_ends_before_all_neighbours_are_heard(middle: MinimumConsens
 def test_it_says_whose_word_it_waits_for(middle: MinimumConsensus) -> None:
     """A neighbour that is missing in the exchange under way, the first by name."""
     assert middle.awaited == "a"
-    middle.hear(said("a", 0, 1, -1.0))
-    assert middle.awaited == "a"
     middle.hear(said("a", 0, 0, -1.0))
     assert middle.awaited == "c"
     middle.hear(said("c", 0, 0, -3.0))
     assert middle.awaited is None
+    middle.hear(said("a", 0, 1, -3.0, by="c"))
     middle.advance()
     assert middle.awaited == "c"
 
@@ -100,6 +99,23 @@ def test_a_message_one_step_ahead_is_kept(middle: MinimumConsensus) -> None:
     assert middle.advance() is not None
     assert middle.hear(said("c", 0, 1, -4.0)) is Reception.ACCEPTED
     assert middle.advance() == said("b", 0, 2, -4.0, by="c")
+
+
+def test_a_neighbours_next_word_stands_for_a_lost_one(middle: MinimumConsensus) -> None:
+    """Within an iteration it is the least of more words; the last step's has no substitute."""
+    middle.hear(said("a", 0, 1, -3.0, by="x"))
+    assert middle.awaited == "c"
+    middle.hear(said("c", 0, 0, 0.0))
+    assert middle.awaited is None
+    assert middle.advance() == said("b", 0, 1, -3.0, by="x")
+    middle.hear(said("c", 0, 2, -4.0, by="y"))
+    assert middle.advance() == said("b", 0, 2, -4.0, by="y")
+    middle.hear(said("c", 0, 2, -4.0, by="y"))
+    middle.hear(said("a", 1, 0, -9.0))
+    assert middle.awaited == "a"
+    assert middle.conclusion is None
+    middle.hear(said("a", 0, 2, -3.0, by="x"))
+    assert middle.conclusion == said("b", 0, 2, -4.0, by="y")
 
 
 def test_the_last_two_messages_are_repeated(middle: MinimumConsensus) -> None:

@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from support.fake_network import FakeNetwork
@@ -10,7 +11,7 @@ from support.meetings import Meeting, make_offers, make_team, sample_meeting
 from tlcomm_core.errors import InfeasibleRoundError
 from tlcomm_core.game.problem import Candidates
 from tlcomm_core.protocol.actions import Action, CountIgnored, HoldStrategy, SendMessage
-from tlcomm_core.protocol.messages import BestResponse, Message, PlanOffer
+from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
 from tlcomm_core.protocol.negotiation import Negotiation, Phase, _meeting_graph
 
 START_S = 100.0
@@ -66,14 +67,29 @@ def test_repetitions_become_rarer_while_members_are_missing(meeting: Meeting) ->
     negotiation = negotiation_of(meeting)
     negotiation.proceed(START_S)
     intervals_s, now_s = [], START_S
-    for _ in range(7):
+    for _ in range(9):
         intervals_s.append(round(negotiation.next_need_s - now_s, 9))
         now_s = negotiation.next_need_s
         assert len(messages_in(negotiation, now_s)) == 1
-    assert intervals_s == [0.1, 0.2, 0.4, 0.8, 1.6, 1.6, 1.6]
+    assert intervals_s == [0.0125, 0.025, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 1.6]
     negotiation.hear(PlanOffer("agent_01", meeting.round, ("agent_01",), meeting.offers[1:2]))
     negotiation.proceed(now_s)
     assert negotiation.next_need_s == now_s + meeting.team.retry_s
+
+
+def test_unanswered_exchanges_become_rarer_too(meeting: Meeting) -> None:
+    """Much less so: a neighbour that is only slow isn't asked over and over, a lost word is soon
+    mended.
+    """
+    negotiation = negotiation_of(meeting)
+    negotiation.hear(all_offers(meeting, 1))
+    negotiation.proceed(START_S)
+    intervals_s, now_s = [], START_S
+    for _ in range(6):
+        intervals_s.append(round(negotiation.next_need_s - now_s, 9))
+        now_s = negotiation.next_need_s
+        assert messages_in(negotiation, now_s)
+    assert intervals_s == [0.0125, 0.025, 0.05, 0.1, 0.1, 0.1]
 
 
 def test_nothing_is_repeated_before_its_time(meeting: Meeting) -> None:
@@ -186,6 +202,39 @@ def test_a_round_that_nobody_can_attend_raises(meeting: Meeting) -> None:
         negotiation.proceed(START_S)
 
 
+@pytest.mark.parametrize("phase", [Phase.GATHERING, Phase.IMPROVING])
+def test_too_late_to_confirm_it_gives_up(meeting: Meeting, phase: Phase) -> None:
+    """D_c into the window to plan, who hasn't confirmed says and takes in nothing any more."""
+    negotiation = negotiation_of(meeting)
+    if phase is Phase.IMPROVING:
+        negotiation.hear(all_offers(meeting, 1))
+    until_s = meeting.team.confirmable_until_s(meeting.round)
+    assert until_s == 60.0 * meeting.round + 5.0
+    assert messages_in(negotiation, math.nextafter(until_s, 0.0))
+    assert negotiation.phase is phase
+    assert not negotiation.is_given_up
+    assert negotiation.proceed(until_s) == ()
+    assert negotiation.is_given_up
+    assert negotiation.next_need_s == math.inf
+    assert negotiation.awaited is None
+    assert negotiation.hear(all_offers(meeting, 1)) == (CountIgnored("late"),)
+    assert negotiation.confirmed is None
+
+
+def test_who_has_confirmed_never_gives_up() -> None:
+    """It goes on asking for the others' confirmations, however late it is."""
+    meeting = sample_meeting("line", 2, 1)
+    network = FakeNetwork(meeting.offers, meeting.round, meeting.team, meeting.rounds)
+    network.is_cut = lambda _time_s, _receiver, message: isinstance(message, Confirmation)
+    network.run(meeting.team.confirmable_until_s(meeting.round) + 60.0)
+    strategies = {agent.confirmed for agent in network.agents.values()}
+    assert len(strategies - {None}) == 1
+    assert not any(agent.is_given_up for agent in network.agents.values())
+    network.is_cut = lambda _time_s, _receiver, _message: False
+    network.run()
+    assert {agent.agreed for agent in network.agents.values()} == strategies
+
+
 def test_once_settled_it_answers_who_still_repeats(meeting: Meeting) -> None:
     """A settled agent is silent; only a neighbour's repeated exchange is answered, each once."""
     network = FakeNetwork(meeting.offers, meeting.round, meeting.team, meeting.rounds)
@@ -229,3 +278,17 @@ def test_the_meeting_graph_relies_on_as_little_as_connects(
     """Links that hold for sure, or else the shortest that connect the team, and its diameter."""
     offers = make_offers(at_m, [0.0] * len(at_m))
     assert _meeting_graph(offers, make_team(len(at_m))) == expected
+
+
+def test_the_meeting_graph_relies_on_the_surest_sightings_that_connect() -> None:
+    """Links that are seen for sure, else those that are seen at all, else those in range."""
+    offers = make_offers([(0.0, 0.0), (0.5, 0.0), (0.9, 0.0)], [0.0] * 3)
+    team = make_team(3)
+    triangle = np.ones((3, 3), dtype=np.bool_)
+    chain, pair = triangle.copy(), triangle.copy()
+    chain[0, 2] = chain[2, 0] = False
+    pair[2, :2] = pair[:2, 2] = False
+    assert _meeting_graph(offers, team, [triangle]) == (((0, 1), (0, 2), (1, 2)), 1)
+    assert _meeting_graph(offers, team, [chain, triangle]) == (((0, 1), (1, 2)), 2)
+    assert _meeting_graph(offers, team, [pair, chain]) == (((0, 1), (1, 2)), 2)
+    assert _meeting_graph(offers, team, [pair, pair]) == (((0, 1), (0, 2), (1, 2)), 1)

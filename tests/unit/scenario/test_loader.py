@@ -24,6 +24,33 @@ def test_a_good_scenario_loads_with_its_defaults() -> None:
     assert scenario.agents["two"].start == (0.75, 0.75, 0.0)
 
 
+def test_by_default_the_radio_is_perfect_within_range() -> None:
+    """Nothing is lost, late, doubled, limited or hidden unless the file says so."""
+    radio = loads(GOOD).radio
+    assert (radio.loss, radio.loss_at_range, radio.jitter_s, radio.duplication) == (0, None, 0, 0)
+    assert radio.bandwidth_bps is None
+    assert not radio.line_of_sight
+
+
+def test_a_radio_that_needs_sight_must_start_with_it() -> None:
+    """Agents at both sides of a wall are in range of each other, but not connected."""
+    beside = (
+        GOOD.replace("[0.25, 0.75, 0.0]", "[2.75, 2.75, 0.0]")
+        .replace("[0.75, 0.75, 0]", "[3.45, 2.75, 0]")
+        .replace("[2.25, 3.25]", "[2.75, 3.25]")
+        .replace('"G F b"', '"G F drop"')
+        .replace('"G F (a & pick)"', '"G F pick"')
+    )
+    beside = beside.replace("[3.0, 0.0, 3.2, 4.0]", "[3.1, 0.0, 3.2, 4.0]").replace(
+        "cell_m: 0.5", "cell_m: 0.1"
+    )
+    loads(beside)
+    with pytest.raises(
+        ScenarioError, match=r"two\.start: .* isn't connected .* past all obstacles"
+    ):
+        loads(f"{beside}radio: {{line_of_sight: true}}\n")
+
+
 def test_agents_override_the_team() -> None:
     """An agent's own fields win, the team's others stay."""
     scenario = loads(GOOD)
@@ -94,6 +121,18 @@ BAD = [
     ("duration_s: 5.0", "duration_s: 60.0", 11,
      "communication.duration_s: 60.0 isn't shorter than period_s (60.0); expected D_c < T_c"),
     ("duration_s: 5.0", "duration_s: 5.0, hop_latency_s: 5.0", 11, "communication.hop_latency_s"),
+    ("motion: {linear", "radio: {loss: 1.3}\nmotion: {linear", 12,
+     "radio.loss: found 1.3; expected less than or equal to 1"),
+    ("motion: {linear", "radio: {loss_at_range: -0.1}\nmotion: {linear", 12,
+     "radio.loss_at_range: found -0.1; expected greater than or equal to 0"),
+    ("motion: {linear", "radio: {jitter: 0.1}\nmotion: {linear", 12,
+     "radio.jitter: unknown field; did you mean 'jitter_s'?"),
+    ("motion: {linear", "radio: {jitter_s: 4.995}\nmotion: {linear", 12,
+     "radio.jitter_s: 4.995 more than hop_latency_s isn't shorter than duration_s (5.0)"),
+    ("motion: {linear", "radio: {bandwidth_bps: 0}\nmotion: {linear", 12,
+     "radio.bandwidth_bps: found 0; expected greater than 0"),
+    ("motion: {linear", "radio: {line_of_sight: 1}\nmotion: {linear", 12,
+     "radio.line_of_sight: found 1; expected a valid boolean"),
     ("duration_s: 5.0", "duration_s: 5.0, margin_s: 60.0", 11,
      "communication.margin_s: 60.0 isn't shorter than period_s (60.0)"),
     ("duration_s: 5.0", "duration_s: 5.0, margin_s: -1.0", 11,

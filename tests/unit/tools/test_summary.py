@@ -23,6 +23,7 @@ def test_a_summary_says_what_matters() -> None:
         "  simulated        25.0 s in 12.5 s, 2.0 × real time",
         "  own computing    median 20.0 ms, at most 20.0 ms per round",
         "  coordination     median 250.0 ms, at most 250.0 ms per round",
+        "  not heard        lost 2, out of range 5",
         "",
         "  agent  tasks  makespan/s  distance/m  messages",
         "  east       2        10.0        10.0         3",

@@ -8,6 +8,7 @@ import pytest
 from tlcomm_core.geometry import Pose
 from tlcomm_core.world.course import Course
 from tlcomm_core.world.forecast import Forecast
+from tlcomm_core.world.reach import Reach
 
 SECOND_NS = 1_000_000_000
 FAR_NS = 3600 * SECOND_NS
@@ -16,7 +17,7 @@ ORIGIN = Course(0, Pose(0.0, 0.0, 0.0))
 
 def forecast(*courses: Course, linked: bool, from_ns: int = 0) -> Forecast:
     """Look ahead for two bodies, R = 1 m."""
-    return Forecast(courses, np.array([linked]), 1.0, from_ns)
+    return Forecast(courses, np.array([linked]), Reach(1.0), from_ns)
 
 
 def test_driving_apart_ends_a_link() -> None:
@@ -114,7 +115,7 @@ def test_of_an_arc_and_a_straight_the_earlier_counts(
     far = Course(0, Pose(9.0, 0.0, 0.0))
     straight = Course(0, Pose(9.0, 0.0, -2.5), speed_mps)
     linked = np.array([True, False, False, False, False, True])
-    change = Forecast((ORIGIN, arc, far, straight), linked, 1.0, 0).until(FAR_NS)
+    change = Forecast((ORIGIN, arc, far, straight), linked, Reach(1.0), 0).until(FAR_NS)
     assert change is not None
     assert change.time_ns == pytest.approx(seconds * 1e9, abs=2)
     assert np.flatnonzero(change.linked != linked).tolist() == [left]

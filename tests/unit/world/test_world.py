@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -50,9 +51,42 @@ def test_at_the_start_everything_is_told() -> None:
         Odometry(0, "agent_0", Pose(1.0, 1.0, 0.0), 0.0, 0.0),
         Odometry(0, "agent_1", Pose(2.0, 1.0, 0.0), 0.0, 0.0),
         Odometry(0, "agent_2", Pose(5.0, 1.0, 0.0), 0.0, 0.0),
-        Connectivity(0, ((0, 1),), connected=False),
+        Connectivity(0, ((0, 1),), connected=False, distances_m=(1.0,)),
     )
     assert simulated.advance_to(0) == ()
+
+
+def test_distances_are_those_at_the_time() -> None:
+    """Each connectivity tells how far apart linked agents are then, moving or not."""
+    simulated = world((1.0, 1.0), (1.0, 1.5), (9.0, 9.0))
+    simulated.advance_to(0)
+    simulated.command("agent_0", 0.5, 0.0)
+    seen = [one for one in run(simulated, 2 * SECOND_NS) if isinstance(one, Connectivity)]
+    assert [(one.stamp_ns, one.distances_m) for one in seen[:1]] == [
+        (SECOND_NS, (pytest.approx(math.hypot(0.5, 0.5)),))
+    ]
+    assert (seen[1].edges, seen[1].distances_m) == ((), ())
+
+
+def test_where_sight_matters_a_pillar_breaks_a_link() -> None:
+    """Driving past a pillar, an agent is out of another's sight from corner to corner."""
+    bodies = [Body(name, Pose(1.0, y_m, 0.0), 1.0, 1.5) for name, y_m in (("a", 1.0), ("b", 2.0))]
+    grid = Grid((10.0, 10.0), 0.5, [(2.0, 1.4, 3.0, 1.6)])
+    links = []
+    for line_of_sight in (False, True):
+        simulated = World(
+            bodies, grid, 1.0, NO_NOISE, np.random.default_rng(0), line_of_sight=line_of_sight
+        )
+        simulated.advance_to(0)
+        for name in ("a", "b"):
+            simulated.command(name, 1.0, 0.0)
+        links.append(connectivity(run(simulated, 3 * SECOND_NS)))
+    assert {edges for _, edges in links[0]} == {((0, 1),)}
+    changes = [after for before, after in pairwise(links[1]) if after[1] != before[1]]
+    assert changes == [
+        (pytest.approx(SECOND_NS, abs=10), ()),
+        (pytest.approx(2 * SECOND_NS, abs=10), ((0, 1),)),
+    ]
 
 
 def test_heartbeats_at_rest_and_in_motion() -> None:

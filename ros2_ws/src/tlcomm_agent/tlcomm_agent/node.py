@@ -129,8 +129,7 @@ class AgentNode(Node):
         self._published: Final[Counter[str]] = Counter()
         self._is_ready = False
         self._is_stopped = False
-        self._meetings_reported = 0
-        self._neighbours = frozenset[str]()
+        self._neighbours: Container[str] = ()
         self._attended: Container[str] = self.config.others if self._is_lockstep else ()
         self._create_publishers()
         self._create_listeners()
@@ -156,14 +155,10 @@ class AgentNode(Node):
     def _create_listeners(self) -> None:
         subscribe = self.create_subscription
         self._tick_sub = subscribe(msg.Tick, "tick", self._take_tick, _DEPTH)
+        take_links = self._taking("connectivity", self._see_connectivity)
         own = [
             subscribe(Odometry, "odom", self._taking("odom", self._see_odometry), _DEPTH),
-            subscribe(
-                msg.Connectivity,
-                "/connectivity",
-                self._taking("connectivity", self._see_connectivity),
-                _DEPTH,
-            ),
+            subscribe(msg.Connectivity, "/connectivity", take_links, _DEPTH),
             self._tick_sub,
         ]
         team = [
@@ -215,8 +210,9 @@ class AgentNode(Node):
         self._member.see_odometry(seen.stamp_ns, seen.pose, seen.linear_mps, seen.angular_radps)
 
     def _see_connectivity(self, message: msg.Connectivity) -> None:
-        self._neighbours, stamp_ns = wire.decode_neighbours(message, self.config.name)
-        self._member.see_neighbours(stamp_ns, self._neighbours)
+        distances_m, stamp_ns = wire.decode_neighbours(message, self.config.name)
+        self._neighbours = distances_m.keys()
+        self._member.see_neighbours(stamp_ns, distances_m)
         self._attend()
 
     def _change_task(self, request: Any, response: Any) -> Any:  # noqa: ANN401 (rclpy's are opaque)
@@ -282,6 +278,7 @@ class AgentNode(Node):
     def _stop(self, tick: msg.Tick) -> None:
         """Act no more; stay until the sim has gone, to send again what somebody has missed."""
         self._is_stopped = True
+        self._publish_undelivered(tick.time_ns)
         self._answer(tick.sequence)
         self.create_timer(_LEAVE_PERIOD_S, self._leave_after_sim, clock=self._steady)
 
@@ -300,18 +297,27 @@ class AgentNode(Node):
         if not self._taken["odom"] or self._is_stopped:
             return
         self._ready_timer.cancel()
-        self._step(self._now_ns())
+        has_met = self._step(self._now_ns())
         self._attend()
-        if self._member.meetings_ended != self._meetings_reported:
-            self._meetings_reported = self._member.meetings_ended
+        if has_met:
             self._answer(0)
 
-    def _step(self, now_ns: int) -> None:
+    def _step(self, now_ns: int) -> bool:
+        """Act; return whether a meeting has ended."""
+        meetings_ended = self._member.meetings_ended
         due, timing = self._timed.step(now_ns)
         for action in due:
             self._perform(action, now_ns)
         if timing is not None:
             self._publish("round_timing", wire.encode_round_timing(timing, now_ns))
+        has_met = self._member.meetings_ended != meetings_ended
+        if has_met:
+            self._publish_undelivered(now_ns)
+        return has_met
+
+    def _publish_undelivered(self, now_ns: int) -> None:
+        counts = self._member.undelivered
+        self._publish("undelivered", wire.encode_undelivered(counts, self.config.name, now_ns))
 
     def _perform(self, action: actions.Action, now_ns: int) -> None:
         if isinstance(action, actions.CountIgnored):

@@ -5,9 +5,10 @@
 ``encode_action``      what the agent does, of ``PublishedAction``
 ``encode_message``     what the agent says
 ``decode_message``     what another agent says, validated
-``encode_drive``, ``encode_task_event``, ``encode_team_strategy``, ``encode_round_timing``
+``encode_drive``, ``encode_task_event``, ``encode_team_strategy``, ``encode_round_timing``,
+``encode_undelivered`` the rest of what it publishes
 ``decode_odometry``    where the agent is
-``decode_neighbours``  who is in range of one agent, of ``Connectivity``
+``decode_neighbours``  who is in range of one agent, and how far away, of ``Connectivity``
 """
 
 import math
@@ -59,6 +60,7 @@ __all__ = [
     "encode_round_timing",
     "encode_task_event",
     "encode_team_strategy",
+    "encode_undelivered",
 ]
 
 TEAM_TYPES: Final[Mapping[str, Any]] = MappingProxyType(
@@ -76,6 +78,7 @@ TYPES: Final[Mapping[str, Any]] = MappingProxyType(
         "task_event": msg.TaskEvent,
         "team_strategy": msg.TeamStrategy,
         "round_timing": msg.RoundTiming,
+        "undelivered": msg.Undelivered,
         # Nothing is estimated yet, but the topic is there for those who look for it.
         "estimate": msg.Estimate,
     }
@@ -263,6 +266,13 @@ def encode_round_timing(timing: RoundTiming, stamp_ns: int) -> _RosMessage:
     )
 
 
+def encode_undelivered(counts: Mapping[str, int], agent: str, stamp_ns: int) -> _RosMessage:
+    """Return how many messages an agent's radio hasn't let through, by reason."""
+    return msg.Undelivered(
+        header=header(stamp_ns), agent=agent, reasons=list(counts), counts=list(counts.values())
+    )
+
+
 def decode_odometry(message: _RosMessage, agent: str) -> Odometry:
     """Return where an agent is and how it moves.
 
@@ -284,21 +294,29 @@ def decode_odometry(message: _RosMessage, agent: str) -> Odometry:
     )
 
 
-def decode_neighbours(message: _RosMessage, agent: str) -> tuple[frozenset[str], int]:
-    """Return who is in range of an agent, and since when (ns).
+def decode_neighbours(message: _RosMessage, agent: str) -> tuple[dict[str, float], int]:
+    """Return how far away those are that are in range of an agent, and since when (ns).
+
+    Where distances aren't given, they are taken to be the range.
 
     Raises:
-        WireError: the agent isn't listed, or an edge leads nowhere.
+        WireError: the agent isn't listed, an edge leads nowhere, or has no proper distance.
     """
     agents, ends = names(message.agents, "agents"), message.edges
     if agent not in agents:
         raise WireError(f"agents: {agent!r} isn't among {len(agents)} names")
     if len(ends) % 2 or any(end >= len(agents) for end in ends):
         raise WireError(f"edges: not pairs of indices below {len(agents)}")
-    own = agents.index(agent)
     pairs = list(zip(ends[::2], ends[1::2], strict=True))
-    indices = {j for i, j in pairs if i == own} | {i for i, j in pairs if j == own}
-    return frozenset(agents[index] for index in indices), decode_stamp(message.header.stamp)
+    lengths_m = message.distances or [message.range] * len(pairs)
+    if len(lengths_m) != len(pairs):
+        raise WireError(f"distances: {len(lengths_m)} of {len(pairs)} pairs")
+    own = agents.index(agent)
+    return {
+        agents[i + j - own]: finite(length_m, "distances")
+        for (i, j), length_m in zip(pairs, lengths_m, strict=True)
+        if own in {i, j}
+    }, decode_stamp(message.header.stamp)
 
 
 def _encode_offer(offer: MemberOffer) -> _RosMessage:

@@ -220,7 +220,14 @@ def _agent(name: str, records: RunRecords) -> dict[str, Any]:
             earlier.distance_m(later.x_m, later.y_m) for earlier, later in pairwise(poses)
         ),
         "messages_sent": records.messages_sent.get(name),
+        "messages_undelivered": _undelivered(name, records),
     }
+
+
+def _undelivered(agent: str, records: RunRecords) -> dict[str, int] | None:
+    """Return how many messages an agent's radio didn't let through, by reason; None: unknown."""
+    counts = records.messages_undelivered.get(agent)
+    return None if counts is None else dict(sorted(counts.items()))
 
 
 def _satisfied_ns(agent: str, records: RunRecords) -> Iterator[int]:
@@ -266,14 +273,22 @@ def _unsatisfied(scenario: Scenario, records: RunRecords, end_ns: int) -> Iterat
 
 
 def _disagreements(scenario: Scenario, records: RunRecords) -> Iterator[str]:
-    """Say which rounds not all agents hold the same strategy of; a last one may be incomplete."""
+    """Say which rounds not all agents hold the same strategy of; a last one may be incomplete.
+
+    Who reported that it lacks the others' confirmations does as all do, and holds nothing.
+    """
+    reported = {(r.event.round + 1, r.agent) for r in records.tasks if r.event.is_disagreement}
     held: dict[int, dict[str, set[TeamStrategy]]] = defaultdict(lambda: defaultdict(set))
     for record in records.strategies:
         held[record.strategy.round][record.agent].add(record.strategy)
     for number, by_agent in sorted(held.items()):
         if len(set[TeamStrategy]().union(*by_agent.values())) > 1:
             yield f"round {number}: agents hold different strategies"
-        missing = _names(name for name in scenario.agents if name not in by_agent)
+        missing = _names(
+            name
+            for name in scenario.agents
+            if name not in by_agent and (number, name) not in reported
+        )
         if missing and number < max(held):
             yield f"round {number}: not held by {missing}"
 

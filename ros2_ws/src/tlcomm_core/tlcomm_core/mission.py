@@ -57,4 +57,5 @@ def create_world(site: Site, seed: int) -> World:
         scenario.communication.range_m,
         Noise(scenario.noise.linear, scenario.noise.angular),
         np.random.default_rng(seed),
+        line_of_sight=scenario.radio.line_of_sight,
     )

@@ -7,7 +7,7 @@
 """
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 
 from tlcomm_core.agent.actions import TaskEvent
@@ -38,7 +38,13 @@ class StrategyRecord:
 
 @dataclass(slots=True)
 class RunRecords:
-    """Everything that results and checks are computed from, each list in order of time."""
+    """Everything that results and checks are computed from, each list in order of time.
+
+    Attributes:
+        messages_sent: per agent, how many messages it said.
+        messages_undelivered: per agent, by reason, how many of the others' its radio didn't let
+            through.
+    """
 
     tasks: list[TaskRecord] = field(default_factory=list)
     strategies: list[StrategyRecord] = field(default_factory=list)
@@ -46,6 +52,7 @@ class RunRecords:
     odometry: list[Odometry] = field(default_factory=list)
     connectivity: list[Connectivity] = field(default_factory=list)
     messages_sent: dict[str, int] = field(default_factory=dict)
+    messages_undelivered: dict[str, Mapping[str, int]] = field(default_factory=dict)
 
 
 def event_log(records: RunRecords) -> Iterator[str]:

@@ -90,6 +90,9 @@ class _Harness:
             name: create(name, mission.site, Pacing.EVENT, atlas, mission.seed, mission.solver)
             for name in scenario.agents
         }
+        self.left.records.messages_undelivered = {
+            name: member.undelivered for name, member in self._members.items()
+        }
         self._timed = {
             name: TimedMember(member, time.thread_time, time.time)
             for name, member in self._members.items()
@@ -163,9 +166,9 @@ class _Harness:
 
     def _show_connectivity(self, connectivity: Connectivity) -> None:
         names = tuple(self._members)
-        neighbours: dict[str, set[str]] = {name: set() for name in names}
-        for i, j in connectivity.edges:
-            neighbours[names[i]].add(names[j])
-            neighbours[names[j]].add(names[i])
+        neighbours: dict[str, dict[str, float]] = {name: {} for name in names}
+        for (i, j), distance_m in zip(connectivity.edges, connectivity.distances_m, strict=True):
+            neighbours[names[i]][names[j]] = distance_m
+            neighbours[names[j]][names[i]] = distance_m
         for name, member in self._members.items():
-            member.see_neighbours(connectivity.stamp_ns, frozenset(neighbours[name]))
+            member.see_neighbours(connectivity.stamp_ns, neighbours[name])

@@ -68,6 +68,7 @@ def encode_connectivity(
         range=range_m,
         agents=list(agents),
         edges=[end for edge in connectivity.edges for end in edge],
+        distances=list(connectivity.distances_m),
         connected=connectivity.connected,
     )
 

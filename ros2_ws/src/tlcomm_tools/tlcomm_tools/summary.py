@@ -4,6 +4,7 @@
 """
 
 import statistics
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -34,6 +35,7 @@ def format_summary(result: Mapping[str, Any], folder: RunFolder, *, has_bag: boo
         f"  windows kept     {links['satisfied']} of {links['windows']}",
         f"  simulated        {format_number(result['sim_s'], 1, 's')} in {wall}, {factor}",
         *_format_times(result["rounds"]),
+        *_format_undelivered(result["agents"]),
         "",
         _format_agents(result["agents"]),
     ]
@@ -64,6 +66,15 @@ def _format_times(rounds: Sequence[Mapping[str, Any]]) -> list[str]:
                 f"at most {1e3 * max(times_s):.1f} ms per round"
             )
     return lines
+
+
+def _format_undelivered(agents: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    """Return how many messages weren't heard, by reason, if any."""
+    counts: Counter[str] = Counter()
+    for own in agents.values():
+        counts.update(own["messages_undelivered"] or {})
+    reasons = ", ".join(f"{reason} {count}" for reason, count in sorted(counts.items()))
+    return [f"  not heard        {reasons}"] if reasons else []
 
 
 def _format_agents(agents: Mapping[str, Mapping[str, Any]]) -> str:

@@ -2,7 +2,7 @@
 
 ``DecodedMessage``      any object with a message's fields
 ``read_odometry``, ``read_connectivity``, ``read_task_event``, ``read_team_strategy``,
-``read_round_timing``   one per recorded type that results are computed from
+``read_round_timing``, ``read_undelivered``  one per recorded type that results are computed from
 
 They need no ROS.
 """
@@ -25,6 +25,7 @@ __all__ = [
     "read_round_timing",
     "read_task_event",
     "read_team_strategy",
+    "read_undelivered",
 ]
 
 # Decoders make the classes as they read a file's definitions.
@@ -45,12 +46,13 @@ def read_odometry(message: DecodedMessage, agent: str) -> Odometry:
 
 
 def read_connectivity(message: DecodedMessage) -> Connectivity:
-    """Read a ``tlcomm_msgs/Connectivity``."""
+    """Read a ``tlcomm_msgs/Connectivity``; older ones have no distances."""
     ends = [int(end) for end in message.edges]
     return Connectivity(
         stamp_ns=_stamp_ns(message.header.stamp),
         edges=tuple(zip(ends[::2], ends[1::2], strict=True)),
         connected=message.connected,
+        distances_m=tuple(float(distance) for distance in getattr(message, "distances", ())),
     )
 
 
@@ -90,6 +92,11 @@ def read_round_timing(message: DecodedMessage) -> RoundTiming:
         offered_wall_s=seconds(_stamp_ns(message.offered_at)),
         agreed_wall_s=seconds(_stamp_ns(message.agreed_at)),
     )
+
+
+def read_undelivered(message: DecodedMessage) -> dict[str, int]:
+    """Read a ``tlcomm_msgs/Undelivered``: how many messages, by reason."""
+    return dict(zip(message.reasons, map(int, message.counts), strict=True))
 
 
 def _read_strategy(message: DecodedMessage) -> Strategy:

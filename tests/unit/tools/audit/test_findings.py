@@ -17,6 +17,7 @@ from support.hand_made_run import (
 from tlcomm_core.agent.actions import TaskEvent, TaskEventKind
 from tlcomm_core.geometry import Pose
 from tlcomm_core.records import RunRecords, TaskRecord
+from tlcomm_core.scenario.model import Radio
 from tlcomm_tools.audit.findings import Audit, audit_run
 from tlcomm_tools.bag.reader import RecordedRun, read_run
 
@@ -50,6 +51,20 @@ def test_a_bag_is_audited_like_the_records(tmp_path: Path) -> None:
     write_bag(tmp_path / "bag", records)
     found = audit_run(hand_made_scenario(), read_run(tmp_path / "bag"))
     assert found.document() == audit(records).document()
+
+
+def test_where_sight_matters_a_wall_between_two_parts_them() -> None:
+    """The same run misses all its windows if a pillar stands between, and sight is asked for."""
+    good = hand_made_scenario()
+    workspace = good.workspace.model_copy(update={"obstacles_m": ((3.4, 0.2, 3.6, 0.3),)})
+    scenarios = [
+        good.model_copy(update={"workspace": workspace, "radio": Radio(line_of_sight=asked)})
+        for asked in (False, True)
+    ]
+    run = RecordedRun(hand_made_records(), AGENTS, 25 * S, {}, "")
+    ignored, seen = (audit_run(scenario, run) for scenario in scenarios)
+    assert [own.satisfied for own in ignored.windows] == [True, True, True]
+    assert [own.satisfied for own in seen.windows] == [False, False]
 
 
 def shift_pose(records: RunRecords) -> None:

@@ -46,6 +46,39 @@ def test_exactly_at_range_is_in_range() -> None:
     assert link_intervals(STILL, track((0.0, 0.6, 0.8), (10.0, 0.6, 0.8)), 1.0) == [(0.0, 10.0)]
 
 
+PILLAR = (0.4, -0.1, 0.6, 0.1)
+
+
+def test_an_obstacle_between_ends_a_link() -> None:
+    """Driving past a pillar, the straight is hidden exactly from corner to corner."""
+    passing = track((0.0, 1.0, -1.0), (10.0, 1.0, 1.0))
+    first, second = link_intervals(STILL, passing, 1.2, [PILLAR])
+    assert (first[1], second[0]) == pytest.approx((3.75, 6.25), abs=1e-4)
+    assert link_intervals(STILL, passing, 1.2) == [
+        pytest.approx((first[0], second[1])),
+    ]
+
+
+def test_along_a_wall_there_is_sight() -> None:
+    """Two at one wall see each other, and two at opposite walls of a pillar don't."""
+    along = track((0.0, 1.0, 0.0), (10.0, 0.5, 0.0))
+    assert link_intervals(STILL, along, 1.0, [(0.0, 0.0, 1.0, 1.0)]) == [(0.0, 10.0)]
+    assert link_intervals(STILL, along, 1.0, [(0.1, -0.1, 0.4, 0.1)]) == []
+
+
+def test_a_moving_pair_passes_an_obstacle() -> None:
+    """Both drive, a metre apart in line abreast: each corner counts at its own time."""
+    one, other = (
+        track((0.0, 0.0, 0.0), (10.0, 10.0, 0.0)),
+        track((0.0, 0.0, 1.0), (10.0, 10.0, 1.0)),
+    )
+    first, second = link_intervals(one, other, 1.0, [(4.0, 0.4, 6.0, 0.6)])
+    assert (first, second) == (
+        pytest.approx((0.0, 4.0), abs=1e-5),
+        pytest.approx((6.0, 10.0), abs=1e-5),
+    )
+
+
 POINTS = st.tuples(st.floats(-2, 2), st.floats(-2, 2))
 
 

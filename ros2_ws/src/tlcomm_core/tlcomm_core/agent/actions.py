@@ -10,6 +10,7 @@
 
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import Final
 
 from tlcomm_core.protocol.actions import CountIgnored, HoldStrategy, SendMessage
 
@@ -23,6 +24,10 @@ __all__ = [
     "TaskEvent",
     "TaskEventKind",
 ]
+
+
+_DISAGREEMENT: Final = "agreement="
+_COPED_WITH: Final = ("displaced_m=", _DISAGREEMENT)
 
 
 class TaskEventKind(IntEnum):
@@ -62,9 +67,17 @@ class TaskEvent:
 
     @property
     def is_coped_with(self) -> bool:
-        """Whether it is a fault after which the agent goes on: a failed action, a displacement."""
+        """Whether it is a fault after which the agent goes on.
+
+        These are failed actions, displacements, and meetings that end without agreement.
+        """
         is_fault = self.kind is TaskEventKind.FAULT
-        return is_fault and (bool(self.action) or self.detail.startswith("displaced_m="))
+        return is_fault and (bool(self.action) or self.detail.startswith(_COPED_WITH))
+
+    @property
+    def is_disagreement(self) -> bool:
+        """Whether a meeting is over, or was left, without agreement on the next."""
+        return self.kind is TaskEventKind.FAULT and self.detail.startswith(_DISAGREEMENT)
 
     @property
     def is_failed_attempt(self) -> bool:

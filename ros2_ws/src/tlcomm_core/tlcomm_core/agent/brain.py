@@ -5,7 +5,8 @@
 
 What it is doing is one of four activities, in this cycle (Section IV-C of the paper):
 
-Meeting    at its place: negotiate the next meeting; leave at t_c + D_c.
+Meeting    at its place: negotiate the next meeting; leave at t_c + D_c. (``meeting``: later, or for
+           the last meeting's place, if the network is so bad that there is no agreement by then.)
 Driving    to the next step of its plan, or to the next place of meeting; anew, from where it is,
            when something has put it off its way, be it into what its task forbids.
 Acting     at a step's region, until the step is done, or begun anew since its action failed.
@@ -16,7 +17,7 @@ At t = 0 the team is connected: the first odometry finds the agent at the meetin
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tlcomm_core.agent.actions import Action, Drive, ReportTask, TaskEvent, TaskEventKind
 from tlcomm_core.agent.controller import Follower, Pacing
@@ -29,20 +30,19 @@ from tlcomm_core.agent.events import (
 )
 from tlcomm_core.agent.faults import ActionFaults
 from tlcomm_core.agent.itinerary import Itinerary
+from tlcomm_core.agent.meeting import RESOLUTION_S, Meeting
 from tlcomm_core.agent.reckoning import DeadReckoning
 from tlcomm_core.game.offer import MemberOffer
-from tlcomm_core.game.strategy import Strategy, TeamStrategy
+from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.geometry import Pose, wrap_angle
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
 from tlcomm_core.protocol.actions import CountIgnored
 from tlcomm_core.protocol.negotiation import Negotiation, Phase, Rounds
 from tlcomm_core.protocol.team import Team
+from tlcomm_core.protocol.whereabouts import Ending, Whereabouts
 from tlcomm_core.workspace.travel import Leg, TravelTimes
 
 __all__ = ["Brain", "Settings"]
-
-# Simulated time has nanoseconds: a time less than this ahead has come.
-_RESOLUTION_S = 1e-9
 
 # An agent that ends a leg as near as its tolerance and no further turned than this takes itself
 # to be where the leg was to end: what it is off by is the controller's business.
@@ -97,16 +97,6 @@ class _Acting:
     until_s: float
 
 
-@dataclass(slots=True)
-class _Meeting:
-    """At the place of meeting."""
-
-    negotiation: Negotiation
-    has_started: bool = False
-    is_agreed: bool = False
-    is_overdue: bool = False
-
-
 class Brain:
     """One agent: executes its plan, and plans meetings with the others."""
 
@@ -114,8 +104,9 @@ class Brain:
         """Be ready for the first odometry."""
         self._settings = settings
         self._reckoning = DeadReckoning()
-        self._activity: _Driving | _Acting | _Meeting | None = None
+        self._activity: _Driving | _Acting | Meeting | None = None
         self._round = 0
+        self._whereabouts: Whereabouts | None = None
         self._itinerary = Itinerary(settings.plan, settings.travel, settings.retries)
         self._pose = Pose(0.0, 0.0, 0.0)
 
@@ -127,17 +118,17 @@ class Brain:
     @property
     def phase(self) -> Phase | None:
         """Where planning the next round stands; ``None`` when not at a meeting."""
-        return self._activity.negotiation.phase if isinstance(self._activity, _Meeting) else None
+        return self._activity.negotiation.phase if isinstance(self._activity, Meeting) else None
 
     @property
     def awaited(self) -> str | None:
         """A member without whose word a meeting can't go on; ``None`` if anyone's may matter."""
-        return self._activity.negotiation.awaited if isinstance(self._activity, _Meeting) else None
+        return self._activity.negotiation.awaited if isinstance(self._activity, Meeting) else None
 
     @property
     def next_start(self) -> Pose | None:
         """Where the agent will be when another plan can begin; ``None`` until that is agreed."""
-        is_agreeing = isinstance(self._activity, _Meeting) and not self._activity.is_agreed
+        is_agreeing = isinstance(self._activity, Meeting) and not self._activity.is_agreed
         if self._activity is None or is_agreeing:
             return None
         return self._itinerary.meeting_pose(self._pose)
@@ -152,8 +143,8 @@ class Brain:
                 return control_s
             case _Acting(until_s=until_s):
                 return until_s
-            case _Meeting() as meeting:
-                return min(meeting.negotiation.next_need_s, self._next_change_s(meeting))
+            case Meeting() as meeting:
+                return meeting.next_need_s
 
     def handle(self, event: Event, now_s: float) -> tuple[Action, ...]:
         """Take an event at the time ``now_s`` (simulated time); return what to do.
@@ -168,7 +159,7 @@ class Brain:
             case OdometryReceived():
                 return tuple(self._locate(event, now_s))
             case MessageHeard(message):
-                if isinstance(self._activity, _Meeting):
+                if isinstance(self._activity, Meeting):
                     return self._activity.negotiation.hear(message)
                 return (CountIgnored("not meeting"),)
             case TaskChanged():
@@ -184,6 +175,7 @@ class Brain:
         if self._activity is not None:
             return []
         self._pose = odometry.pose
+        self._whereabouts = Whereabouts((self._pose.x_m, self._pose.y_m))
         return self._reach_meeting(now_s)
 
     def _proceed(self, now_s: float) -> list[Action]:
@@ -198,7 +190,7 @@ class Brain:
                     actions += self._drive(activity, now_s)
                 case _Acting():
                     actions += self._act(activity, now_s)
-                case _Meeting():
+                case Meeting():
                     actions += self._meet(activity, now_s)
             if self._activity is activity:
                 return actions
@@ -209,10 +201,12 @@ class Brain:
         actions: list[Action] = [self._report(TaskEventKind.MEETING_REACHED, detail=detail)]
         if (change := self._itinerary.reach_meeting()) is not None:
             actions.append(self._report(TaskEventKind.TASK_CHANGED, detail=f"task={change.task}"))
-        self._activity = _Meeting(
-            Negotiation(
-                self._offer(now_s), self._round + 1, self._settings.team, self._settings.rounds
-            )
+        settings = self._settings
+        self._activity = Meeting(
+            settings.name,
+            Negotiation(self._offer(now_s), self._round + 1, settings.team, settings.rounds),
+            settings.team,
+            lambda meeting: self._itinerary.leg(self._pose, meeting).duration_s,
         )
         return actions
 
@@ -233,47 +227,58 @@ class Brain:
             avoided=tuple(sorted(settings.travel.grid.avoided)),
         )
 
-    def _next_change_s(self, meeting: _Meeting) -> float:
-        """Return when the meeting starts or ends, as far as it is known."""
-        starts_s = meeting.negotiation.meeting_s
-        if starts_s is not None and not meeting.has_started:
-            return starts_s
-        return math.inf if meeting.is_overdue else self._departure_s(meeting)
-
-    def _meet(self, meeting: _Meeting, now_s: float) -> list[Action]:
+    def _meet(self, meeting: Meeting, now_s: float) -> list[Action]:
+        actions: list[Action] = [*meeting.proceed(now_s)]
         negotiation = meeting.negotiation
-        actions: list[Action] = [*negotiation.proceed(now_s)]
-        if self._is_due(self._next_change_s(meeting), now_s) and not meeting.has_started:
+        starts_s, round_ = negotiation.meeting_s, negotiation.round
+        if not meeting.has_started and starts_s is not None and self._is_due(starts_s, now_s):
             meeting.has_started = True
-            detail = f"t_c_s={negotiation.meeting_s:.9f}"
+            detail = f"t_c_s={starts_s:.9f}"
             actions.append(self._report(TaskEventKind.MEETING_STARTED, detail=detail))
         if negotiation.agreed is not None and not meeting.is_agreed:
             meeting.is_agreed = True
-            self._agree(negotiation.agreed)
-            actions.append(self._report(TaskEventKind.ROUND_AGREED, round_=negotiation.round))
-        if meeting.has_started and self._is_due(self._departure_s(meeting), now_s):
-            actions += self._end_meeting(meeting, now_s)
+            own = meeting.own_part(negotiation.agreed)
+            self._itinerary.agree(own, negotiation.agreed.communication_s)
+            actions.append(self._report(TaskEventKind.ROUND_AGREED, round_=round_))
+        if self._is_due(meeting.over_s, now_s) and not meeting.is_agreed | meeting.is_overdue:
+            meeting.is_overdue = True
+            actions.append(self._report_disagreement("late", round_))
+        if (ending := meeting.ending(now_s)) is not None:
+            actions += self._end_meeting(meeting, ending, now_s)
         return actions
 
-    def _departure_s(self, meeting: _Meeting) -> float:
-        starts_s = meeting.negotiation.meeting_s
-        return math.inf if starts_s is None else starts_s + self._settings.team.duration_s
-
-    def _agree(self, agreed: TeamStrategy) -> None:
-        own = next(s for s in agreed.strategies if s.agent == self._settings.name)
-        self._itinerary.agree(own, agreed.communication_s)
-
-    def _end_meeting(self, meeting: _Meeting, now_s: float) -> list[Action]:
-        """Leave with an agreement; without one stay, since leaving would scatter the team."""
-        if not meeting.is_agreed:
-            if meeting.is_overdue:
-                return []
-            meeting.is_overdue = True
-            detail = f"no agreement on round {meeting.negotiation.round} when the meeting ended"
-            return [self._report(TaskEventKind.FAULT, detail=detail)]
-        actions: list[Action] = [self._report(TaskEventKind.MEETING_ENDED)]
-        self._round = meeting.negotiation.round
+    def _end_meeting(self, meeting: Meeting, ending: Ending, now_s: float) -> list[Action]:
+        """Leave for the next place of meeting, whichever that is by how this one ended."""
+        assert self._whereabouts is not None
+        window, confirmed = self._round, meeting.negotiation.confirmed
+        own = None if confirmed is None else meeting.own_part(confirmed)
+        new_m = None if own is None else (own.x_m, own.y_m)
+        here_m = self._whereabouts.place(window)
+        self._whereabouts = self._whereabouts.after(window, ending, new_m)
+        if ending is Ending.AGREED:
+            actions = [self._report(TaskEventKind.MEETING_ENDED)]
+        else:
+            actions = [self._report_disagreement(ending.value, window + 1)]
+        self._round = window + 1
+        if own is not None and confirmed is not None:
+            if not meeting.is_agreed:
+                self._itinerary.agree(own, confirmed.communication_s)
+            if meeting.is_prolonged:
+                self._itinerary.delay()
+            return [*actions, *self._set_out(now_s)]
+        there_m = self._whereabouts.place(self._round)
+        if there_m == here_m:
+            return [*actions, *self._reach_meeting(now_s)]
+        self._itinerary.agree(self._return_to(there_m, now_s), now_s)
         return [*actions, *self._set_out(now_s)]
+
+    def _return_to(self, place_m: tuple[float, float], now_s: float) -> Strategy:
+        """Return how to attend a meeting at a place by going straight there."""
+        place = Strategy(self._settings.name, *place_m, self._itinerary.done, now_s, 0.0)
+        return replace(place, arrival_s=now_s + self._itinerary.leg(self._pose, place).duration_s)
+
+    def _report_disagreement(self, how: str, round_: int) -> ReportTask:
+        return self._report(TaskEventKind.FAULT, detail=f"agreement={how} round={round_}")
 
     # Driving and acting.
 
@@ -363,7 +368,7 @@ class Brain:
 
     @staticmethod
     def _is_due(time_s: float, now_s: float) -> bool:
-        return now_s >= time_s - _RESOLUTION_S
+        return now_s >= time_s - RESOLUTION_S
 
     def _report(
         self,

@@ -6,23 +6,24 @@
 """
 
 import math
+from collections.abc import Mapping
 from typing import Final
 
 from tlcomm_core.agent.actions import Action
 from tlcomm_core.agent.avoidance import travel_of
 from tlcomm_core.agent.brain import Brain, Settings
+from tlcomm_core.agent.channel import Channel
 from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
 from tlcomm_core.agent.events import MessageHeard, OdometryReceived, TaskChanged, TimePassed
 from tlcomm_core.agent.faults import ActionFaults, fault_rng
 from tlcomm_core.agent.planner import Planner, local_plan, plan_for
-from tlcomm_core.agent.radio import Radio
+from tlcomm_core.agent.radio import OUT_OF_RANGE, UNSEEN, Radio
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.game.rules import Rules
 from tlcomm_core.game.solver import DEFAULT, Solver
 from tlcomm_core.geometry import Pose
 from tlcomm_core.planning.plan import LocalPlan
-from tlcomm_core.protocol.actions import CountIgnored
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.protocol.negotiation import Phase
 from tlcomm_core.protocol.team import Team
@@ -74,15 +75,20 @@ class Member:
         """Where planning the next round stands; ``None`` when not at a meeting."""
         return self._brain.phase
 
+    @property
+    def undelivered(self) -> Mapping[str, int]:
+        """How many messages of others the radio hasn't let through, by reason."""
+        return self._radio.undelivered
+
     def see_odometry(
         self, stamp_ns: int, pose: Pose, linear_mps: float, angular_radps: float
     ) -> None:
         """Take an odometry; the next step makes use of it."""
         self._odometry.append(OdometryReceived(seconds(stamp_ns), pose, linear_mps, angular_radps))
 
-    def see_neighbours(self, stamp_ns: int, neighbours: frozenset[str]) -> None:
-        """Note who is in range from ``stamp_ns`` on."""
-        self._radio.see_neighbours(stamp_ns, neighbours)
+    def see_neighbours(self, stamp_ns: int, distances_m: Mapping[str, float]) -> None:
+        """Note who is in range from ``stamp_ns`` on, and how far away."""
+        self._radio.see_neighbours(stamp_ns, distances_m)
 
     def receive(self, message: Message, sent_ns: int) -> None:
         """Take a message off the air; the radio decides whether the brain hears it."""
@@ -116,15 +122,18 @@ class Member:
         odometry, self._odometry = self._odometry, []
         for event in odometry:
             actions += self._brain.handle(event, now_s)
-        before = self._radio.out_of_range
         for message in self._radio.heard(now_ns):
             actions += self._brain.handle(MessageHeard(message), now_s)
-        actions += [CountIgnored("out of range")] * (self._radio.out_of_range - before)
         actions += self._brain.handle(TimePassed(), now_s)
-        need_s = self._brain.next_need_s
-        # Rounding must not ask for the instant that just was.
-        self._next_need_ns = None if need_s == math.inf else max(nanoseconds(need_s), now_ns + 1)
+        self._next_need_ns = self._needed_ns(now_ns)
         return tuple(actions)
+
+    def _needed_ns(self, now_ns: int) -> int | None:
+        """Return when the brain wants to be called again, or a message is heard."""
+        need_s, due_ns = self._brain.next_need_s, self._radio.next_due_ns
+        # Rounding must not ask for the instant that just was.
+        need_ns = None if need_s == math.inf else max(nanoseconds(need_s), now_ns + 1)
+        return min((time_ns for time_ns in (need_ns, due_ns) if time_ns is not None), default=None)
 
 
 def team_of(site: Site, solver: Solver = DEFAULT) -> Team:
@@ -137,6 +146,7 @@ def team_of(site: Site, solver: Solver = DEFAULT) -> Team:
         duration_s=communication.duration_s,
         rules=Rules(communication.separation_m, communication.resilience),
         margin_s=communication.margin_s,
+        clearance_m=site.planned_clearance_m,
         solver=solver,
     )
 
@@ -187,5 +197,7 @@ def create(
     )
     # Free running, a message is heard when it comes; in lock step, one hop's latency after.
     latency_s = scenario.communication.hop_latency_s if pacing is Pacing.EVENT else 0.0
-    radio = Radio(nanoseconds(latency_s))
+    channel = Channel(scenario.radio, scenario.communication.range_m, seed, name)
+    unlinked = UNSEEN if scenario.radio.line_of_sight else OUT_OF_RANGE
+    radio = Radio(nanoseconds(latency_s), channel, unlinked)
     return Member(name, brain, radio, lambda task, start: plan_for(task, start, name, site, travel))

@@ -1,17 +1,26 @@
 """What an agent's radio lets through: messages of neighbours, at the instant they arrive.
 
-``Radio``  the filter between what is on the air and what the agent hears
+``Radio``         the filter between what is on the air and what the agent hears
+``OUT_OF_RANGE``  why a message from elsewhere isn't heard
+``UNSEEN``        the same where obstacles matter too
 
-Over ROS every agent's messages reach every process; range is this filter's doing, as loss and
-delay would be. It knows the agent's own neighbours, and nothing else of the connectivity.
+Over ROS every agent's messages reach every process; range is this filter's doing, as are loss and
+delay, which its ``Channel`` decides on. It knows the agent's own neighbours and how far away they
+are, and nothing else of the connectivity.
 """
 
 from bisect import bisect_right
+from collections import Counter
+from collections.abc import Mapping
 from typing import Final
 
+from tlcomm_core.agent.channel import Channel
 from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer, Proposal
 
-__all__ = ["Radio"]
+__all__ = ["OUT_OF_RANGE", "UNSEEN", "Radio"]
+
+OUT_OF_RANGE: Final = "out of range"
+UNSEEN: Final = "out of range or sight"
 
 # Messages that one sender sends at the same instant are heard in this order of their kinds, since
 # ROS keeps the order on each topic only.
@@ -28,47 +37,87 @@ _MEMORY_NS: Final = 10_000_000_000
 
 
 class Radio:
-    """The filter between what is on the air and what the agent hears."""
+    """The filter between what is on the air and what the agent hears.
 
-    def __init__(self, latency_ns: int) -> None:
+    Attributes:
+        undelivered: how many messages weren't let through, by reason.
+    """
+
+    def __init__(self, latency_ns: int, channel: Channel, unlinked: str = OUT_OF_RANGE) -> None:
         """Begin without neighbours.
 
         Args:
-            latency_ns: time from sending to hearing.
+            latency_ns: fixed part of the time from sending to hearing. Who is a neighbour when it
+                has passed hears the message, then or later.
+            channel: what becomes of messages of neighbours.
+            unlinked: why others aren't heard.
         """
-        self._latency_ns = latency_ns
+        self._latency_ns: Final = latency_ns
+        self._channel: Final = channel
+        self._unlinked: Final = unlinked
         self._since_ns: list[int] = [-1]
-        self._neighbours: list[frozenset[str]] = [frozenset()]
+        self._neighbours: list[Mapping[str, float]] = [{}]
         self._on_air: list[tuple[int, Message]] = []
-        self.out_of_range = 0
+        self._under_way: list[tuple[int, Message]] = []
+        self.undelivered: Final[Counter[str]] = Counter()
 
-    def see_neighbours(self, stamp_ns: int, neighbours: frozenset[str]) -> None:
-        """Note who is in range from ``stamp_ns`` on, not before what was noted last."""
+    @property
+    def next_due_ns(self) -> int | None:
+        """When the next message of those that have been decided on is heard; ``None``: none is."""
+        return min((due_ns for due_ns, _ in self._under_way), default=None)
+
+    def see_neighbours(self, stamp_ns: int, distances_m: Mapping[str, float]) -> None:
+        """Note who is in range from ``stamp_ns`` on, not before what was noted last.
+
+        Args:
+            stamp_ns: from when on.
+            distances_m: how far away each neighbour is.
+        """
         self._since_ns.append(stamp_ns)
-        self._neighbours.append(neighbours)
+        self._neighbours.append(distances_m)
 
     def receive(self, message: Message, sent_ns: int) -> None:
         """Take a message off the air, whoever sent it."""
-        self._on_air.append((sent_ns + self._latency_ns, message))
+        self._on_air.append((sent_ns, message))
 
     def heard(self, now_ns: int) -> list[Message]:
-        """Return, and forget, the messages that have arrived by now and were in range then.
+        """Return, and forget, the messages that are heard by now.
 
         The order depends on the messages only, not on when they were taken off the air.
         """
-        arrived = [entry for entry in self._on_air if entry[0] <= now_ns]
-        self._on_air = [entry for entry in self._on_air if entry[0] > now_ns]
-        arrived.sort(key=lambda entry: (entry[0], entry[1].sender, _KIND_RANK[type(entry[1])]))
-        messages = [message for due_ns, message in arrived if self._is_in_range(message, due_ns)]
-        self.out_of_range += len(arrived) - len(messages)
+        reached = [entry for entry in self._on_air if entry[0] + self._latency_ns <= now_ns]
+        self._on_air = [entry for entry in self._on_air if entry[0] + self._latency_ns > now_ns]
+        for sent_ns, message in sorted(reached, key=_turn):
+            self._pass_on(message, sent_ns)
+        due = [entry for entry in self._under_way if entry[0] <= now_ns]
+        self._under_way = [entry for entry in self._under_way if entry[0] > now_ns]
         self._forget_before(now_ns)
-        return messages
+        return [message for _, message in sorted(due, key=_turn)]
 
-    def _is_in_range(self, message: Message, due_ns: int) -> bool:
-        known = bisect_right(self._since_ns, due_ns) - 1
-        return known >= 0 and message.sender in self._neighbours[known]
+    def _pass_on(self, message: Message, sent_ns: int) -> None:
+        """Decide on a message for which the fixed latency has passed."""
+        reached_ns = sent_ns + self._latency_ns
+        distance_m = self._distance_m(message.sender, reached_ns)
+        if distance_m is None:
+            self.undelivered[self._unlinked] += 1
+            return
+        passage = self._channel.carry(message, sent_ns, distance_m)
+        if passage.obstacle:
+            self.undelivered[passage.obstacle] += 1
+        self._under_way += [(reached_ns + delay_ns, message) for delay_ns in passage.delays_ns]
+
+    def _distance_m(self, sender: str, time_ns: int) -> float | None:
+        """Return how far away a neighbour was at a time; ``None`` if it was none."""
+        known = bisect_right(self._since_ns, time_ns) - 1
+        return self._neighbours[known].get(sender) if known >= 0 else None
 
     def _forget_before(self, now_ns: int) -> None:
         """Keep what decides on messages that are still to come, and no more."""
         oldest = max(0, bisect_right(self._since_ns, now_ns - _MEMORY_NS) - 1)
         del self._since_ns[:oldest], self._neighbours[:oldest]
+
+
+def _turn(entry: tuple[int, Message]) -> tuple[int, str, int]:
+    """Return what messages are sorted by: time, sender, kind; else they stay as they came."""
+    time_ns, message = entry
+    return time_ns, message.sender, _KIND_RANK[type(message)]

@@ -5,8 +5,11 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
+from tlcomm_core.agent.sightings import links_on, sightings
 from tlcomm_core.game.candidates import candidates
-from tlcomm_core.game.links import Links
 from tlcomm_core.game.offer import MemberOffer, offer_flaw
 from tlcomm_core.game.problem import RoundProblem
 from tlcomm_core.protocol.team import Team
@@ -30,7 +33,7 @@ class MeetingRounds:
         self._atlas = atlas
         self._team = team
         self._allowance_s = segment_allowance_s
-        self._links = Links(atlas.grid.locations_m, team.planned_range_m)
+        self._links = links_on(atlas.grid, team)
 
     def is_sound(self, offer: MemberOffer) -> bool:
         """Return whether candidates can be computed from a peer's offer."""
@@ -38,6 +41,10 @@ class MeetingRounds:
         if not self._atlas.knows(avoided):
             return False
         return offer_flaw(offer, self._atlas.grid_avoiding(avoided)) is None
+
+    def sightings(self, offers: Sequence[MemberOffer]) -> tuple[NDArray[np.bool_], ...]:
+        """Return masks of which members see each other, from the surest to the least sure."""
+        return sightings(self._atlas.grid, self._team, offers)
 
     def problem(
         self, round_: int, departure_s: float, offers: Sequence[MemberOffer]

@@ -9,15 +9,14 @@ from dataclasses import dataclass
 
 from tlcomm_core.game.best_response import (
     MAX_ITERATIONS,
-    Response,
     Scope,
     Search,
-    best_response,
     priority,
 )
 from tlcomm_core.game.initial import initial_profile
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Profile, RoundProblem
+from tlcomm_core.game.responses import Responses
 
 __all__ = ["Solution", "improve", "solve"]
 
@@ -90,9 +89,10 @@ def improve(
     """
     opens_s, _ = problem.window_s
     profiles = [start]
+    to_one_another = Responses(problem)
     search = Search(scope=scope, max_iterations=max_iterations)
     while search.scope is not None:
-        responses = _responses(problem, profiles[-1], search.scope)
+        responses = to_one_another.to(profiles[-1], search.scope)
         mover = min(
             range(len(responses)),
             key=lambda agent: priority(responses[agent].change_s, problem.agents[agent]),
@@ -104,18 +104,4 @@ def improve(
         profiles=tuple(profiles),
         potentials_s=tuple(potential(problem.strategies(profile), opens_s) for profile in profiles),
         search=search,
-    )
-
-
-def _responses(problem: RoundProblem, profile: Profile, scope: Scope) -> tuple[Response, ...]:
-    strategies = problem.strategies(profile)
-    return tuple(
-        best_response(
-            problem,
-            agent,
-            profile.choice(agent),
-            strategies[:agent] + strategies[agent + 1 :],
-            scope,
-        )
-        for agent in range(len(strategies))
     )

@@ -1,6 +1,7 @@
 """One agent's best response, and whose response the team takes.
 
 ``best_response``  an agent's best switch, knowing the others by their exchanged values only
+``best_switch``    the same once it is known which places are open
 ``Response``       what it found
 ``priority``       the order in which responses are taken
 ``Scope``          where a response is looked for: near the present place, or everywhere
@@ -15,8 +16,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from tlcomm_core.game.potential import deviation_costs
-from tlcomm_core.game.problem import Choice, RoundProblem
+from tlcomm_core.game.potential import communication_time, switch_costs
+from tlcomm_core.game.problem import Candidates, Choice, RoundProblem
 from tlcomm_core.game.strategy import Strategy
 
 __all__ = [
@@ -26,6 +27,7 @@ __all__ = [
     "Scope",
     "Search",
     "best_response",
+    "best_switch",
     "priority",
 ]
 
@@ -138,15 +140,38 @@ def best_response(
         u_i(s_i, S_−i) over z' in Υ_i and h', with t_c in the window.
     Cost: O(Z·N + H·|Υ_i|).
     """
-    own = problem.candidates[agent]
     opens_s, _ = problem.window_s
-    stay = Response(0.0, current.location, current.candidate)
     places = _open_places(problem, current.location, others, scope)
+    others_s = communication_time(others, opens_s)
+    own, team = problem.candidates[agent], len(others) + 1
+    return best_switch(own, current, team, (opens_s, others_s), places)
+
+
+def best_switch(
+    own: Candidates,
+    current: Choice,
+    team: int,
+    meeting_s: tuple[float, float],
+    places: NDArray[np.intp],
+) -> Response:
+    """Return the switch to one of some places that lowers the potential most.
+
+    Args:
+        own: the agent's candidates.
+        current: its present strategy.
+        team: N.
+        meeting_s: when the window opens, and when the others alone could meet.
+        places: open to the agent, ascending.
+    """
+    stay = Response(0.0, current.location, current.candidate)
     if not len(places):
         return stay
     # The present strategy is costed in the same call, as a last column.
     columns = np.append(places, current.location)
-    costs_s = deviation_costs(own.arrival_s[:, columns], own.extra_s[:, columns], others, opens_s)
+    opens_s, others_s = meeting_s
+    costs_s = switch_costs(
+        own.arrival_s[:, columns], own.extra_s[:, columns], team, others_s, opens_s
+    )
     rows = np.argmin(costs_s[:, :-1], axis=0)
     least_s = costs_s[rows, np.arange(len(places))]
     best = int(np.argmin(least_s))

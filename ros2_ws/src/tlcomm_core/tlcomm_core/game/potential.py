@@ -4,6 +4,7 @@
 ``additional_times``    ξ_i
 ``potential``           Φ
 ``deviation_costs``     u_i of one agent's candidates, the others' strategies given
+``switch_costs``        the same, given only when the others could meet
 ``evaluate``            a ``TeamStrategy`` from strategies
 """
 
@@ -20,6 +21,7 @@ __all__ = [
     "deviation_costs",
     "evaluate",
     "potential",
+    "switch_costs",
 ]
 
 
@@ -71,10 +73,29 @@ def deviation_costs(
     Deviates: times count from the window's opening, which shifts u_i by a constant, so that
         rounding doesn't grow with the age of the run.
     """
-    others_s = communication_time(others, opens_s) - opens_s
+    others_s = communication_time(others, opens_s)
+    return switch_costs(arrival_s, extra_s, len(others) + 1, others_s, opens_s)
+
+
+def switch_costs(
+    arrival_s: NDArray[np.float64],
+    extra_s: NDArray[np.float64],
+    team: int,
+    others_s: float,
+    opens_s: float,
+) -> NDArray[np.float64]:
+    """Return the same as ``deviation_costs``, knowing of the others only when they could meet.
+
+    Args:
+        arrival_s: t_i of each candidate, of any shape; +inf where inadmissible.
+        extra_s: δ_i of the same shape; +inf where ``arrival_s`` is.
+        team: N.
+        others_s: t_c of the others alone.
+        opens_s: r·T_c.
+    """
     since_s = np.where(np.isfinite(arrival_s), arrival_s - opens_s, 0.0)
-    team_size = len(others) + 1
-    costs_s: NDArray[np.float64] = extra_s + team_size * np.maximum(since_s, others_s) - since_s
+    latest_s = np.maximum(since_s, others_s - opens_s)
+    costs_s: NDArray[np.float64] = extra_s + team * latest_s - since_s
     return costs_s
 
 

@@ -5,6 +5,7 @@
 ``is_admissible``  whether a team may meet at some places
 ``crowding``       who is too close to another
 ``indispensable``  whose failure would part the others
+``lone_cuts``      the places of such agents
 ``open_places``    where one agent may go while the others stay
 """
 
@@ -19,7 +20,15 @@ from numpy.typing import NDArray
 from tlcomm_core.game.links import Links
 from tlcomm_core.game.resilience import cut_places
 
-__all__ = ["PLAIN_RULES", "Rules", "crowding", "indispensable", "is_admissible", "open_places"]
+__all__ = [
+    "PLAIN_RULES",
+    "Rules",
+    "crowding",
+    "indispensable",
+    "is_admissible",
+    "lone_cuts",
+    "open_places",
+]
 
 # A team of two is apart when one fails, wherever they meet.
 _LEAST_RESILIENT_TEAM: Final = 3
@@ -71,7 +80,7 @@ def indispensable(links: Links, rules: Rules, places: Sequence[int]) -> tuple[in
     """
     if not rules.resilience or len(places) < _LEAST_RESILIENT_TEAM:
         return ()
-    cuts = _lone(places) & cut_places(links, places)
+    cuts = lone_cuts(links, places)
     return tuple(agent for agent, place in enumerate(places) if place in cuts)
 
 
@@ -107,11 +116,12 @@ def _backed_up(links: Links, others: Sequence[int]) -> NDArray[np.bool_]:
         return np.zeros(len(links), dtype=np.bool_)
     near = np.concatenate([links.near(place) for place in others])
     mask = np.bincount(near, minlength=len(links)) > 1
-    for cut in sorted(_lone(others) & cut_places(links, others)):
+    for cut in sorted(lone_cuts(links, others)):
         mask &= links.connecting([place for place in others if place != cut])
     return mask
 
 
-def _lone(places: Sequence[int]) -> frozenset[int]:
-    """Return the places of a single agent: where two are, one may fail."""
-    return frozenset(place for place, agents in Counter(places).items() if agents == 1)
+def lone_cuts(links: Links, places: Sequence[int]) -> frozenset[int]:
+    """Return the places whose only agent holds others together: where two are, one may go."""
+    lone = {place for place, agents in Counter(places).items() if agents == 1}
+    return cut_places(links, places) & lone

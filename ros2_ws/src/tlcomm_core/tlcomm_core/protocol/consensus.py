@@ -6,15 +6,20 @@ Each iteration ends with everyone knowing the least word of all: the best team s
 or the smallest change in an iteration of Algorithm 1. With D the diameter of the meeting graph, D
 synchronous exchanges do it: in exchange h everyone tells its neighbours the least word that it has
 seen, and goes on when it has heard the same from all of them. By induction, after exchange h an
-agent knows the minimum over everyone within h + 1 hops; after D exchanges that is the whole team.
+agent knows the minimum over everyone within h + 1 hops at least; after D exchanges that is the
+whole team.
 
 Exchanges are numbered through all iterations: step = iteration·D + hop. An agent enters step s + 1
-only after hearing step s from *every* neighbour. Hence
+only after hearing step s (or s + 1) from *every* neighbour. Hence
 
 * a neighbour is at most one step ahead: a message of step s or s + 1 can be needed, and is kept
   until it is; anything later is no honest neighbour's;
 * a neighbour is at most one step behind: re-sending one's last two messages serves it, whatever
   was lost; anything earlier is late or a duplicate.
+
+Within an iteration, a neighbour's word of the next step stands for its word of this one, if that is
+lost: it is the least of more agents' words, all of the same iteration, and minima don't mind whom
+they have counted before. An iteration's last step has no such substitute.
 
 The first message of a neighbour for a step stays; a second, different one is a contradiction and
 ignored, so that repeating or reordering messages never changes what is concluded.
@@ -104,7 +109,7 @@ class MinimumConsensus:
     @property
     def awaited(self) -> str | None:
         """A neighbour without whose word the exchange under way can't end, if there is one."""
-        return min(self._neighbours.difference(self._heard.get(self._step, ())), default=None)
+        return min(self._neighbours.difference(self._words), default=None)
 
     @property
     def has_heard_all(self) -> bool:
@@ -127,10 +132,16 @@ class MinimumConsensus:
         return self._step >= 0 and (self._step + 1) % self._exchanges == 0
 
     def _is_step_complete(self) -> bool:
-        return self._heard.get(self._step, {}).keys() >= self._neighbours
+        return self._words.keys() >= self._neighbours
+
+    @property
+    def _words(self) -> dict[str, Word]:
+        """What neighbours have said for the step under way, or in this iteration after it."""
+        later = {} if self._is_last_exchange() else self._heard.get(self._step + 1, {})
+        return {**later, **self._heard.get(self._step, {})}
 
     def _minimum(self) -> Word:
-        heard = [self._sent[-1], *self._heard.get(self._step, {}).values()]
+        heard = [self._sent[-1], *self._words.values()]
         return min(heard, key=lambda word: word.priority).joined(heard)
 
     def _say(self, word: Word) -> Word:

@@ -14,6 +14,9 @@ IMPROVING   Over the meeting graph, which is known to all from the offers' place
 CONFIRMING  The search is over; everyone floods that it holds the result. (``confirming``)
 AGREED      All confirmations are known: the team strategy is held as agreed.
 
+Who hasn't confirmed a round until D_c into its window (``Team.confirmable_until_s``) gives it up
+for good: it says and hears nothing of that round any more.
+
 Which messages matter in which phase (rows: what is heard of the round being planned):
 
               GATHERING      IMPROVING      CONFIRMING     AGREED
@@ -29,21 +32,28 @@ outside the team: foreign. Whatever is malformed or contradicts what was heard b
 nothing.
 
 Safety: an agent confirms one team strategy per round only, and holds it as agreed only when all
-members have confirmed the same; so no two agents ever hold different strategies for one round.
+members have confirmed the same; so no two agents ever hold different strategies for one round. More
+than that, all that is confirmed for a round is the same strategy, since each agent gets it from the
+same offers by the same exchanges. And where anybody agrees, nobody has given up or ever will.
+To confirm is to promise to be there: where each goes if it never learns whether all have
+confirmed, and why the team meets again, is said in ``whereabouts``.
 
-Liveness: what a neighbour may still need is repeated every ``retry_s`` until its messages show
-that it is past needing it. An offer or a confirmation is shown by being relayed, an exchange of
-the consensus by the neighbour's next one. So while the team stays connected, each phase ends. Who
-sees that all its neighbours hold all confirmations is *settled* and falls silent; a neighbour that
-can't see the same of it still repeats its last exchanges, and that it answers.
+Liveness: what a neighbour may still need is repeated, at first after ``retry_s`` and then ever more
+rarely up to a bound, until its messages show that it is past needing it. An offer or a confirmation
+is shown by being relayed, an exchange of the consensus by the neighbour's next one. So while the
+team stays connected, each phase ends. Who sees that all its neighbours hold all confirmations is
+*settled* and falls silent; a neighbour that can't see the same of it still repeats its last
+exchanges, and that it answers.
 """
 
 import math
 from collections.abc import Sequence
 from enum import Enum
+from itertools import product
 from typing import Final, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.game.links import LINK_TOLERANCE_M
@@ -64,7 +74,7 @@ from tlcomm_core.protocol.messages import (
 )
 from tlcomm_core.protocol.reception import Reception
 from tlcomm_core.protocol.team import Team
-from tlcomm_core.world.radio import diameter, distances_m, links
+from tlcomm_core.world.radio import diameter, distances_m, edges, pair_indices
 
 __all__ = ["Negotiation", "Phase", "Rounds"]
 
@@ -86,6 +96,12 @@ class Rounds(Protocol):
 
     def is_sound(self, offer: MemberOffer) -> bool:
         """Return whether a round problem can be posed with a peer's offer."""
+
+    def sightings(self, offers: Sequence[MemberOffer]) -> tuple[NDArray[np.bool_], ...]:
+        """Return masks [N, N] of which members see each other, from the surest to the least sure.
+
+        None if their radios needn't see.
+        """
 
     def problem(
         self, round_: int, departure_s: float, offers: Sequence[MemberOffer]
@@ -123,6 +139,7 @@ class Negotiation:
         self._ignored: list[CountIgnored] = []
         self._retry_s = team.retry_s
         self._next_need_s = math.inf
+        self._is_given_up = False
 
     @property
     def round(self) -> int:
@@ -149,12 +166,29 @@ class Negotiation:
         return self._agreed
 
     @property
+    def confirmed(self) -> TeamStrategy | None:
+        """The team strategy that this agent has confirmed, once it has."""
+        return None if self._confirming is None else self._confirming.strategy
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether no neighbour can need anything any more."""
+        return self._confirming is not None and self._confirming.is_shown_complete_by(
+            self._neighbours
+        )
+
+    @property
+    def is_given_up(self) -> bool:
+        """Whether it was too late to confirm: this agent will have no part in the round."""
+        return self._is_given_up
+
+    @property
     def awaited(self) -> str | None:
         """A neighbour without whose word nothing goes on, whatever others say; ``None`` if unknown.
 
         Whoever takes messages may leave the others' until this one's has come.
         """
-        if self._improving is None or self._confirming is not None:
+        if self._improving is None or self._confirming is not None or self._is_given_up:
             return None
         return self._improving.awaited
 
@@ -174,6 +208,8 @@ class Negotiation:
         Raises:
             InfeasibleRoundError: no admissible meeting exists in the round's window.
         """
+        if self._give_up(now_s):
+            return ()
         was_agreed = self._agreed is not None
         messages = self._advance()
         if messages:
@@ -182,7 +218,7 @@ class Negotiation:
             messages = self._repetitions()
         if messages:
             self._next_need_s = now_s + self._retry_s
-        if self._is_settled():
+        if self.is_settled:
             self._next_need_s = math.inf
         actions: list[Action] = [*self._ignored, *(SendMessage(message) for message in messages)]
         self._ignored = []
@@ -190,11 +226,18 @@ class Negotiation:
             actions.append(HoldStrategy(self._agreed))
         return tuple(actions)
 
+    def _give_up(self, now_s: float) -> bool:
+        """Give the round up if it is too late to confirm; return whether it is given up."""
+        if self._confirming is None and now_s >= self._team.confirmable_until_s(self._round):
+            self._is_given_up = True
+            self._next_need_s = math.inf
+        return self._is_given_up
+
     def _receive(self, message: Message) -> Reception:
         if message.sender not in self._team.members or message.sender == self._own:
             return Reception.FOREIGN
-        if message.round != self._round:
-            return Reception.LATE if message.round < self._round else Reception.EARLY
+        if message.round != self._round or self._is_given_up:
+            return Reception.EARLY if message.round > self._round else Reception.LATE
         match message:
             case PlanOffer():
                 return self._gathering.hear(message)
@@ -209,7 +252,7 @@ class Negotiation:
         """Once settled, show so to a neighbour that still repeats what it said last."""
         if self._confirming is None or reception not in (Reception.LATE, Reception.DUPLICATE):
             return reception
-        if not self._is_settled() or message.sender not in self._neighbours:
+        if not self.is_settled or message.sender not in self._neighbours:
             return Reception.LATE
         self._confirming.answer()
         return Reception.ACCEPTED
@@ -253,10 +296,10 @@ class Negotiation:
 
     def _begin_improving(self, departure_s: float) -> Improving:
         offers = self._gathering.offers
-        edges, exchanges = _meeting_graph(offers, self._team)
+        links, exchanges = _meeting_graph(offers, self._team, self._rounds.sightings(offers))
         names = [offer.agent for offer in offers]
         own = names.index(self._own)
-        self._neighbours = frozenset(names[i + j - own] for i, j in edges if own in (i, j))
+        self._neighbours = frozenset(names[i + j - own] for i, j in links if own in (i, j))
         return Improving(
             self._own,
             self._rounds.problem(self._round, departure_s, offers),
@@ -267,9 +310,12 @@ class Negotiation:
         )
 
     def _repetitions(self) -> list[Message]:
+        # What isn't lost but slow to be answered must not be said over and over. Members may take
+        # most of a window to arrive, a neighbour much less to go one exchange on.
+        is_gathering = self._improving is None
+        most_s = self._team.patience_s if is_gathering else self._team.longest_retry_s
+        self._retry_s = min(2.0 * self._retry_s, most_s)
         if self._improving is None:
-            # Members may take most of a window to arrive: ask ever more rarely until something new.
-            self._retry_s = min(2.0 * self._retry_s, self._team.patience_s)
             return [self._gathering.repetition()]
         if self._confirming is None:
             return [*self._offers_lacking(self._improving), *self._improving.unsuperseded]
@@ -282,28 +328,26 @@ class Negotiation:
         offer = self._gathering.lacking(self._neighbours)
         return [] if offer is None else [offer]
 
-    def _is_settled(self) -> bool:
-        """Return whether no neighbour can need anything any more."""
-        return self._confirming is not None and self._confirming.is_shown_complete_by(
-            self._neighbours
-        )
-
 
 def _meeting_graph(
-    offers: Sequence[MemberOffer], team: Team
+    offers: Sequence[MemberOffer], team: Team, sightings: Sequence[NDArray[np.bool_]] = ()
 ) -> tuple[tuple[tuple[int, int], ...], int]:
     """Return the links that exchanges wait for, and how many exchanges reach everyone.
 
     These are the links that hold although both ends are off by their tolerance: a pair reported
-    exactly R apart may hear each other or not. Only a team that isn't connected by such links, as
-    at its start it may not be, relies on longer ones, up to the first length that connects it.
+    exactly R apart, or along a wall, may hear each other or not. Only a team that isn't connected
+    by such links, as at its start it may not be, relies on longer ones, up to the first length that
+    connects it; or else on less sure sightings, and at last on none.
     """
     places_m = np.array([(offer.x_m, offer.y_m) for offer in offers])
     sure_m = team.planned_range_m + LINK_TOLERANCE_M
-    lengths_m = np.unique(distances_m(places_m))
-    for range_m in (sure_m, *lengths_m[lengths_m > sure_m].tolist()):
-        edges = links(places_m, range_m)
-        hops = diameter(len(offers), edges)
+    distance_m = distances_m(places_m)
+    longer_m = np.unique(distance_m[distance_m > sure_m]).tolist()
+    pairs = pair_indices(len(offers))
+    masks = (*(sighting[pairs] for sighting in sightings), np.ones(len(distance_m), dtype=np.bool_))
+    for is_seen, range_m in product(masks, (sure_m, *longer_m)):
+        links = edges(len(offers), is_seen & (distance_m <= range_m))
+        hops = diameter(len(offers), links)
         if hops is not None:
-            return edges, max(1, hops)
+            return links, max(1, hops)
     raise LocalMisuseError(f"{places_m!r} are places at no finite distance")

@@ -22,12 +22,17 @@ class Team:
             by its tolerance.
         period_s: T_c.
         duration_s: D_c.
-        retry_s: a message not known to be superseded is repeated after this time.
-        patience_s: while members are missing, repetitions become rarer up to this interval.
+        retry_s: a message not known to be superseded is repeated after this time, and then each
+            time after twice as long until there is something new to say.
+        longest_retry_s: the longest of these times.
+        patience_s: the same while members are missing.
+        linger_s: after the meeting, whoever holds what a neighbour may lack stays for so long.
         solver: how next meetings are found.
         max_iterations: K of Algorithm 1.
         rules: what the places of meetings must be, beside connected.
         margin_s: how long before its window's end a meeting begins at the latest.
+        clearance_m: how far from obstacles members see each other for sure, although each may be
+            off its place; ``None`` if their radios don't need to see.
     """
 
     members: frozenset[str]
@@ -35,11 +40,14 @@ class Team:
     period_s: float
     duration_s: float
     solver: Solver = DEFAULT
-    retry_s: float = 0.1
+    retry_s: float = 0.0125
+    longest_retry_s: float = 0.1
     patience_s: float = 1.6
+    linger_s: float = 0.5
     max_iterations: int = 1000
     rules: Rules = PLAIN_RULES
     margin_s: float = ROUNDING_S
+    clearance_m: float | None = None
 
     def opens_s(self, round_: int) -> float:
         """Return when a round's window opens, r·T_c."""
@@ -48,3 +56,11 @@ class Team:
     def window_s(self, round_: int) -> tuple[float, float]:
         """Return a round's window [r·T_c, (r+1)·T_c)."""
         return self.opens_s(round_), self.opens_s(round_ + 1)
+
+    def confirmable_until_s(self, round_: int) -> float:
+        """Return until when a round may be confirmed by an agent: D_c into its window.
+
+        Then every meeting that began in the window before has lasted for D_c, and T_c − D_c are
+        left to get to the places of this round in its window.
+        """
+        return self.opens_s(round_) + self.duration_s

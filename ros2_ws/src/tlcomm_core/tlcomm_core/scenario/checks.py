@@ -21,6 +21,7 @@ from tlcomm_core.scenario.model import Agent, Scenario, Workspace
 from tlcomm_core.scenario.site import grid_of, region_location
 from tlcomm_core.scenario.task import read_automaton
 from tlcomm_core.workspace.grid import Grid
+from tlcomm_core.workspace.sight import sightlines
 
 __all__ = ["MAX_CELLS", "check", "check_formulas"]
 
@@ -47,7 +48,7 @@ def check(scenario: Scenario) -> list[Finding]:
     findings += _tasks(scenario)
     if findings:
         return findings
-    return [*_connectivity(scenario), *_reachability(scenario, grid)]
+    return [*_connectivity(scenario, grid), *_reachability(scenario, grid)]
 
 
 def check_formulas(scenario: Scenario) -> list[Finding]:
@@ -68,6 +69,13 @@ def _timing(scenario: Scenario) -> Iterator[Finding]:
             ("communication", "hop_latency_s"),
             f"{communication.hop_latency_s!r} isn't shorter than duration_s"
             f" ({communication.duration_s!r})",
+        )
+    slowest_s = communication.hop_latency_s + scenario.radio.jitter_s
+    if communication.hop_latency_s < communication.duration_s <= slowest_s:
+        yield Finding(
+            ("radio", "jitter_s"),
+            f"{scenario.radio.jitter_s!r} more than hop_latency_s isn't shorter than duration_s"
+            f" ({communication.duration_s!r}): messages would outlast every meeting",
         )
     tolerance_m = scenario.position_tolerance_m
     if communication.range_m <= 2.0 * tolerance_m:
@@ -207,18 +215,22 @@ def _unknown(atom: str, known: Collection[str]) -> str:
     return f"unknown region or action {atom!r}; {did_you_mean(atom, known)}"
 
 
-def _connectivity(scenario: Scenario) -> Iterator[Finding]:
+def _connectivity(scenario: Scenario, grid: Grid) -> Iterator[Finding]:
     names = list(scenario.agents)
     points_m = np.array([scenario.agents[name].start[:2] for name in names])
     offsets_m = points_m[:, None] - points_m[None]
     linked = np.hypot(offsets_m[..., 0], offsets_m[..., 1]) <= scenario.communication.range_m
+    seeing = ""
+    if scenario.radio.line_of_sight:
+        linked &= sightlines(grid, points_m[:, None], points_m)
+        seeing = " past all obstacles"
     _, labels = connected_components(linked, directed=False)
     for name, label in zip(names, labels.tolist(), strict=True):
         if label != labels[0]:
             yield Finding(
                 ("agents", name, "start"),
                 f"{_point(scenario.agents[name].start[:2])} isn't connected to {names[0]!r} by"
-                f" links of at most range_m ({scenario.communication.range_m!r});"
+                f" links of at most range_m ({scenario.communication.range_m!r}){seeing};"
                 " the team must start connected",
             )
 

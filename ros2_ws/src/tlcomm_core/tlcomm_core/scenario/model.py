@@ -1,8 +1,8 @@
 """The scenario's fields, their types and ranges, one class per section of the file.
 
 ``Scenario`` holds ``Workspace`` (with ``Region``), ``Communication``, ``Drive``, ``Noise``,
-``Faults``, ``Action`` and ``Agent`` (with ``DriveOverride`` and ``Soft``). What fields mean
-together is checked in ``checks``.
+``Faults``, ``Radio``, ``Action`` and ``Agent`` (with ``DriveOverride`` and ``Soft``). What fields
+mean together is checked in ``checks``.
 """
 
 from typing import Annotated, Final
@@ -22,6 +22,7 @@ __all__ = [
     "DriveOverride",
     "Faults",
     "Noise",
+    "Radio",
     "Region",
     "Scenario",
     "Soft",
@@ -92,6 +93,28 @@ class Communication(_Section):
     separation_m: NotNegative = 0.0
     resilience: Annotated[int, Field(ge=0, le=1)] = 0
     margin_s: NotNegative = 0.001
+
+
+class Radio(_Section):
+    """How good the links between neighbours are; by default nothing is lost or late.
+
+    Attributes:
+        loss: probability that a neighbour misses a message.
+        loss_at_range: the same at the distance R, linear in between from ``loss`` at distance 0;
+            ``loss`` at any distance if not given.
+        jitter_s: what is added to a message's latency, at random: uniform from 0 to this.
+        duplication: probability that a message that is heard is heard twice.
+        bandwidth_bps: how many bits a second one agent gets through to another; no limit if not
+            given.
+        line_of_sight: whether agents hear each other only if no obstacle is between them.
+    """
+
+    loss: Share = 0.0
+    loss_at_range: Share | None = None
+    jitter_s: NotNegative = 0.0
+    duplication: Share = 0.0
+    bandwidth_bps: Positive | None = None
+    line_of_sight: bool = False
 
 
 class Drive(_Section):
@@ -195,6 +218,7 @@ class Scenario(_Section):
     motion: Drive
     noise: Noise = Noise()
     faults: Faults = Faults()
+    radio: Radio = Radio()
     actions: Actions = {}
     agents: Annotated[dict[Name, Agent], Field(min_length=1, max_length=MAX_AGENTS)]
 

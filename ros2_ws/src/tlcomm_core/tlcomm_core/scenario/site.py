@@ -67,6 +67,15 @@ class Site:
         """Range that meetings are planned with: R less what two controllers may be off."""
         return self.scenario.communication.range_m - 2.0 * self.scenario.position_tolerance_m
 
+    @property
+    def planned_clearance_m(self) -> float | None:
+        """Clearance that sight lines are planned with: what each of two controllers may be off.
+
+        ``None`` if radios reach past obstacles.
+        """
+        sees = self.scenario.radio.line_of_sight
+        return self.scenario.position_tolerance_m if sees else None
+
     def regions_at(self, location: int) -> frozenset[str]:
         """Return the regions whose disc contains a location."""
         return frozenset(name for name, members in self._members if location in members)

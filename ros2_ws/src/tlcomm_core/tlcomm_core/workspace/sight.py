@@ -1,6 +1,7 @@
 """Which places see each other past the obstacles.
 
 ``sightlines``  of pairs of points, whether nothing solid is between them
+``corners``     past which points sight comes and goes
 """
 
 from collections.abc import Iterator
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from tlcomm_core.workspace.grid import Grid
 
-__all__ = ["sightlines"]
+__all__ = ["corners", "sightlines"]
 
 # Far above the rounding of coordinates, far below anything that matters: what drives along a wall
 # still sees along it.
@@ -62,6 +63,19 @@ def sightlines(
     return seen.reshape(shape)
 
 
+def corners(grid: Grid) -> NDArray[np.float64]:
+    """Return the corners of the obstacles, float[4·boxes, 2], as ``sightlines`` sees them.
+
+    While two points move freely, sight between them changes only when the straight between them
+    passes a corner.
+    """
+    low_m, high_m = grid.boxes[:, :2] + _SKIN_M, grid.boxes[:, 2:] - _SKIN_M
+    x_m = np.stack((low_m[:, 0], high_m[:, 0], high_m[:, 0], low_m[:, 0]), axis=1)
+    y_m = np.stack((low_m[:, 1], low_m[:, 1], high_m[:, 1], high_m[:, 1]), axis=1)
+    points_m: NDArray[np.float64] = np.stack((x_m, y_m), axis=2).reshape(-1, 2)
+    return points_m
+
+
 def _ordered(
     from_m: NDArray[np.float64], to_m: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -88,11 +102,15 @@ def _cross(
     ends_m: NDArray[np.float64], low_m: NDArray[np.float64], high_m: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
     """Tell of segments, float[2, S, 2], which lead through a box, bool[S]."""
-    start_m, step_m = ends_m[0][:, np.newaxis], (ends_m[1] - ends_m[0])[:, np.newaxis]
-    # Along a side's very line: 0 / 0, and NaN compares as not crossing.
-    with np.errstate(divide="ignore", invalid="ignore"):
-        to_low, to_high = (low_m - start_m) / step_m, (high_m - start_m) / step_m
-    enter = np.maximum(np.minimum(to_low, to_high).max(axis=2), 0.0)
-    leave = np.minimum(np.maximum(to_low, to_high).min(axis=2), 1.0)
+    enter, leave = 0.0, 1.0
+    # Axis by axis, which is quicker than reducing over two of them.
+    for axis in (0, 1):
+        start_m, end_m = ends_m[0][:, np.newaxis, axis], ends_m[1][:, np.newaxis, axis]
+        # Along a side's very line: 0 / 0, and NaN compares as not crossing.
+        with np.errstate(divide="ignore", invalid="ignore"):
+            to_low = (low_m[:, axis] - start_m) / (end_m - start_m)
+            to_high = (high_m[:, axis] - start_m) / (end_m - start_m)
+        enter = np.maximum(enter, np.minimum(to_low, to_high))
+        leave = np.minimum(leave, np.maximum(to_low, to_high))
     crossing: NDArray[np.bool_] = ((low_m < high_m).all(axis=1) & (enter < leave)).any(axis=1)
     return crossing

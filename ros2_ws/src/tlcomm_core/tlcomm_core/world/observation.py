@@ -1,7 +1,7 @@
 """What the world lets others see.
 
 ``Odometry``      one agent's pose and velocity
-``Connectivity``  who is within range of whom
+``Connectivity``  who hears whom
 ``Observation``   either
 """
 
@@ -30,11 +30,13 @@ class Connectivity:
     Attributes:
         edges: index pairs (i, j), i < j, into the scenario's agents, ascending.
         connected: whether the whole team is connected.
+        distances_m: of each edge's agents from each other; none where they aren't known.
     """
 
     stamp_ns: int
     edges: tuple[tuple[int, int], ...]
     connected: bool
+    distances_m: tuple[float, ...] = ()
 
 
 Observation = Odometry | Connectivity

@@ -1,4 +1,4 @@
-"""The simulated world: bodies that drive, obstacles, radio range.
+"""The simulated world: bodies that drive, obstacles, links.
 
 ``Body``   an agent's body, as given
 ``Noise``  how badly velocity commands are carried out
@@ -19,7 +19,8 @@ from tlcomm_core.workspace.grid import Grid
 from tlcomm_core.world.collision import Obstacles
 from tlcomm_core.world.forecast import Forecast
 from tlcomm_core.world.observation import Connectivity, Observation, Odometry
-from tlcomm_core.world.radio import edges, is_connected, neighbours, pair_indices
+from tlcomm_core.world.radio import distances_m, edges, is_connected, neighbours, pair_indices
+from tlcomm_core.world.reach import Reach
 from tlcomm_core.world.vehicle import Body, Vehicle
 
 __all__ = ["Body", "Noise", "World"]
@@ -36,7 +37,7 @@ class Noise:
 
 
 class World:
-    """Bodies with exact constant-velocity motion, and who is in range of whom.
+    """Bodies with exact constant-velocity motion, and who hears whom.
 
     Time goes from event to event: ``next_change_ns`` tells when the world itself has something to
     show, and ``advance_to`` goes there or to any time before. What is seen depends on the commands
@@ -52,6 +53,8 @@ class World:
         range_m: float,
         noise: Noise,
         rng: np.random.Generator,
+        *,
+        line_of_sight: bool = False,
     ) -> None:
         """Put all bodies at rest at their starts, at t = 0.
 
@@ -61,6 +64,7 @@ class World:
             range_m: R.
             noise: of the actuation.
             rng: drawn from at each command, if there is noise.
+            line_of_sight: whether obstacles keep bodies from hearing each other.
 
         Raises:
             LocalMisuseError: a body starts inside an obstacle or outside the workspace.
@@ -70,7 +74,7 @@ class World:
         self._vehicles: Final = tuple(Vehicle(body, obstacles) for body in bodies)
         self._bodies: Final = {body.name: index for index, body in enumerate(bodies)}
         self._limits: Final = tuple((body.linear_mps, body.angular_radps) for body in bodies)
-        self._range_m: Final = range_m
+        self._reach: Final = Reach(range_m, grid if line_of_sight else None)
         self._noise: Final = noise
         self._rng: Final = rng
         self._refused = dict.fromkeys(self._bodies, 0)
@@ -164,7 +168,7 @@ class World:
         return self._vehicles[self._index(agent)].odometry(self.now_ns)
 
     def neighbours(self, agent: str) -> frozenset[str]:
-        """Return who is within range of an agent."""
+        """Return who hears an agent."""
         return self._neighbours[self._index(agent)]
 
     def _index(self, agent: str) -> int:
@@ -180,7 +184,7 @@ class World:
     def _looked_ahead(self) -> Forecast:
         if self._forecast is None:
             courses = [vehicle.course for vehicle in self._vehicles]
-            self._forecast = Forecast(courses, self._linked, self._range_m, self._constant_ns)
+            self._forecast = Forecast(courses, self._linked, self._reach, self._constant_ns)
         return self._forecast
 
     def _forget_forecast(self) -> None:
@@ -203,7 +207,10 @@ class World:
 
     def _report_connectivity(self) -> Connectivity:
         self._connectivity_due_ns = self.now_ns + _CONNECTIVITY_HEARTBEAT_NS
-        return Connectivity(self.now_ns, self._edges, self._connected)
+        poses = [vehicle.course.pose_at(self.now_ns) for vehicle in self._vehicles]
+        apart_m = distances_m(np.array([(pose.x_m, pose.y_m) for pose in poses]))
+        linked_m = tuple(apart_m[self._linked].tolist())
+        return Connectivity(self.now_ns, self._edges, self._connected, linked_m)
 
 
 def _clamped(speed: float, most: float) -> float:

@@ -77,7 +77,9 @@ def audit_run(scenario: Scenario, run: RecordedRun) -> Audit:
     agents = tuple(scenario.agents)
     tracks, faults = build_tracks(run.records.odometry, agents, end_s)
     links = scenario.communication
-    intervals = team_intervals(tracks, links.range_m) if len(tracks) == len(agents) else []
+    walls = scenario.workspace.obstacles_m if scenario.radio.line_of_sight else ()
+    is_complete = len(tracks) == len(agents)
+    intervals = team_intervals(tracks, links.range_m, walls) if is_complete else []
     windows = judge_windows(intervals, links.period_s, links.duration_s, end_s)
     track_of = {track.agent: track for track in tracks}
     tasks = [

@@ -1,7 +1,7 @@
 """When the whole team was connected, from the agents' tracks alone.
 
 ``Interval``         a stretch of time
-``link_intervals``   when two agents were in range of each other
+``link_intervals``   when two agents were in range of each other, and in sight if need be
 ``team_intervals``   when the graph of all agents was connected
 ``WindowFinding``    one window's outcome
 ``judge_windows``    every window's outcome
@@ -14,6 +14,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from tlcomm_tools.audit.sight import Box, Ways, corner_passages_s, hidden
 from tlcomm_tools.audit.tracks import Track
 
 __all__ = ["Interval", "WindowFinding", "judge_windows", "link_intervals", "team_intervals"]
@@ -26,27 +27,33 @@ Interval = tuple[float, float]
 """From and to, in seconds."""
 
 
-def link_intervals(one: Track, other: Track, range_m: float) -> list[Interval]:
+def link_intervals(
+    one: Track, other: Track, range_m: float, walls: Sequence[Box] = ()
+) -> list[Interval]:
     """Return when two agents were within range, exactly for piecewise linear tracks.
 
-    Between two samples the squared distance is a quadratic in time; its roots and the samples
-    bound stretches in each of which the middle decides.
+    Between two samples the squared distance is a quadratic in time, and so is what tells that a
+    corner is in line with both; their roots and the samples bound stretches in each of which the
+    middle decides.
 
     Args:
         one: an agent.
         other: another.
         range_m: R.
+        walls: the obstacles that mustn't be between them.
     """
     reach_m = range_m + _RANGE_SLACK_M
     begin_s = max(one.times_s[0], other.times_s[0])
     end_s = min(one.times_s[-1], other.times_s[-1])
     times_s = np.union1d(one.times_s, other.times_s)
     times_s = times_s[(times_s >= begin_s) & (times_s <= end_s)]
-    apart_m = one.at(times_s) - other.at(times_s)
-    bounds_s = np.union1d(times_s, _crossings(times_s, apart_m, reach_m))
+    ways = Ways(times_s, one.at(times_s), other.at(times_s))
+    bounds_s = np.union1d(times_s, _crossings(times_s, ways.one_m - ways.other_m, reach_m))
+    bounds_s = np.union1d(bounds_s, corner_passages_s(ways, walls, reach_m))
     middles_s = (bounds_s[:-1] + bounds_s[1:]) / 2.0
-    middle_m = one.at(middles_s) - other.at(middles_s)
-    inside = np.hypot(middle_m[:, 0], middle_m[:, 1]) <= reach_m
+    one_m, other_m = one.at(middles_s), other.at(middles_s)
+    inside = np.hypot(*(one_m - other_m).T) <= reach_m
+    inside[inside] = ~hidden(one_m[inside], other_m[inside], walls)
     changes = np.flatnonzero(np.diff(np.concatenate([[0], inside.astype(np.int8), [0]])))
     return [
         (float(bounds_s[start]), float(bounds_s[stop]))
@@ -71,14 +78,16 @@ def _crossings(
     return crossed
 
 
-def team_intervals(tracks: Sequence[Track], range_m: float) -> list[Interval]:
-    """Return when the graph of all agents was connected.
+def team_intervals(
+    tracks: Sequence[Track], range_m: float, walls: Sequence[Box] = ()
+) -> list[Interval]:
+    """Return when the graph of all agents was connected, past the walls.
 
     Cost: O(N²·S) for the links and O(N) per change of a link.
     """
     changes: list[tuple[float, bool, int, int]] = []
     for (i, one), (j, other) in combinations(enumerate(tracks), 2):
-        for start_s, stop_s in link_intervals(one, other, range_m):
+        for start_s, stop_s in link_intervals(one, other, range_m, walls):
             changes += [(start_s, True, i, j), (stop_s, False, i, j)]
     begin_s = max(track.times_s[0] for track in tracks)
     end_s = min(track.times_s[-1] for track in tracks)

@@ -27,6 +27,7 @@ _DECODED = {
     "task_event": "tlcomm_msgs/msg/TaskEvent",
     "team_strategy": "tlcomm_msgs/msg/TeamStrategy",
     "round_timing": "tlcomm_msgs/msg/RoundTiming",
+    "undelivered": "tlcomm_msgs/msg/Undelivered",
 }
 _CONNECTIVITY = "tlcomm_msgs/msg/Connectivity"
 
@@ -200,6 +201,10 @@ class _Collected:
                 )
             case "round_timing":
                 return lambda message: records.timings.append(wire.read_round_timing(message))
+            case "undelivered":
+                return lambda message: records.messages_undelivered.update(
+                    {agent: wire.read_undelivered(message)}
+                )
             case _:
                 return self._take_connectivity
 

@@ -21,6 +21,7 @@ AGENT_TOPICS = {
     "confirmation": "tlcomm_msgs/msg/Confirmation",
     "estimate": "tlcomm_msgs/msg/Estimate",
     "round_timing": "tlcomm_msgs/msg/RoundTiming",
+    "undelivered": "tlcomm_msgs/msg/Undelivered",
 }
 TEAM_TOPICS = ("plan_offer", "proposal", "best_response", "confirmation")
 _LATCHED = "team_strategy"

@@ -1,0 +1,142 @@
+"""One meeting, from the arrival at the place to leaving it.
+
+``Meeting``  the negotiation, and how long it is worth staying for it
+
+A meeting begins with the last arrival, t_c, and lasts for D_c. Whoever then holds the strategy as
+agreed, and sees that its neighbours do, leaves. On a bad network some don't:
+
+* Who has agreed, but may be the one whose word a neighbour lacks, lingers a little.
+* Who has confirmed stays for the others' confirmations as long as it can still be at its place by
+  the next t_c, going straight there. Then it leaves in any case: others may have agreed.
+* Who hasn't confirmed stays until it is too late for that; so nobody can have agreed.
+
+How the team comes together again is said in ``protocol.whereabouts``.
+"""
+
+import math
+from collections.abc import Callable
+from typing import Final
+
+from tlcomm_core.game.strategy import Strategy, TeamStrategy
+from tlcomm_core.protocol.actions import Action
+from tlcomm_core.protocol.negotiation import Negotiation
+from tlcomm_core.protocol.team import Team
+from tlcomm_core.protocol.whereabouts import Ending
+
+__all__ = ["RESOLUTION_S", "Meeting"]
+
+RESOLUTION_S: Final = 1e-9
+"""Simulated time has nanoseconds: a time less than this ahead has come."""
+
+
+class Meeting:
+    """The negotiation of round r at the meeting of round r − 1, and when to leave it.
+
+    Attributes:
+        negotiation: what is said.
+        has_started: whether the beginning was reported.
+        is_agreed: whether the agreement was.
+        is_overdue: whether it was that the meeting is over without one.
+    """
+
+    def __init__(
+        self,
+        own: str,
+        negotiation: Negotiation,
+        team: Team,
+        way_s: Callable[[Strategy], float],
+    ) -> None:
+        """Be there.
+
+        Args:
+            own: this agent's name.
+            negotiation: of the next round.
+            team: the team.
+            way_s: how long it takes to go straight to a place of the next meeting.
+        """
+        self.negotiation: Final = negotiation
+        self.has_started = False
+        self.is_agreed = False
+        self.is_overdue = False
+        self._own = own
+        self._linger_s = team.linger_s
+        self._duration_s = team.duration_s
+        self._latest_s = team.confirmable_until_s(negotiation.round)
+        self._way_s = way_s
+        self._confirmed_s = math.inf
+        self._agreed_s = math.inf
+        self._settled_s = math.inf
+        self._punctual_s = math.inf
+
+    def proceed(self, now_s: float) -> tuple[Action, ...]:
+        """Let the negotiation go on.
+
+        Raises:
+            InfeasibleRoundError: no admissible meeting exists in the next window.
+        """
+        actions = self.negotiation.proceed(now_s)
+        if self.negotiation.confirmed is not None and self._confirmed_s == math.inf:
+            self._confirmed_s = now_s
+            self._punctual_s = self._latest_punctual_s(self.negotiation.confirmed)
+        if self.negotiation.agreed is not None:
+            self._agreed_s = min(self._agreed_s, now_s)
+        if self.negotiation.is_settled:
+            self._settled_s = min(self._settled_s, now_s)
+        return actions
+
+    def own_part(self, strategy: TeamStrategy) -> Strategy:
+        """Return this agent's part in a team strategy."""
+        return next(own for own in strategy.strategies if own.agent == self._own)
+
+    @property
+    def over_s(self) -> float:
+        """t_c + D_c; inf while t_c isn't known."""
+        starts_s = self.negotiation.meeting_s
+        return math.inf if starts_s is None else starts_s + self._duration_s
+
+    @property
+    def is_prolonged(self) -> bool:
+        """Whether this agent stays, or stayed, for longer than D_c."""
+        return self._settled_s > self.over_s
+
+    @property
+    def next_need_s(self) -> float:
+        """When the meeting must go on, whatever is heard until then."""
+        return min(self.negotiation.next_need_s, self.next_change_s)
+
+    @property
+    def next_change_s(self) -> float:
+        """When it starts, is over or is to be left, as far as that is known."""
+        starts_s = self.negotiation.meeting_s
+        if starts_s is not None and not self.has_started:
+            return min(starts_s, self._stays_until_s)
+        if self.is_agreed or self.is_overdue:
+            return self._stays_until_s
+        return min(self.over_s, self._stays_until_s)
+
+    def ending(self, now_s: float) -> Ending | None:
+        """Return how the meeting has ended for this agent, if it is time to leave."""
+        if now_s < self._stays_until_s - RESOLUTION_S:
+            return None
+        if self.negotiation.agreed is not None:
+            return Ending.AGREED
+        if self.negotiation.confirmed is not None:
+            return Ending.DOUBTFUL
+        return Ending.MISSED if self.negotiation.meeting_s is None else Ending.GATHERED
+
+    @property
+    def _stays_until_s(self) -> float:
+        """When to leave, from what is known now."""
+        if self._settled_s < math.inf:
+            return self.over_s
+        if self._confirmed_s == math.inf:
+            return self._latest_s
+        if self._agreed_s < math.inf:
+            until_s = max(self.over_s, self._agreed_s) + self._linger_s
+        else:
+            until_s = max(self.over_s + self._linger_s, self._punctual_s)
+        return max(self.over_s, min(until_s, self._latest_s))
+
+    def _latest_punctual_s(self, strategy: TeamStrategy) -> float:
+        """Return when to leave at the latest to be at one's place by the next t_c."""
+        return strategy.communication_s - self._way_s(self.own_part(strategy))
