@@ -8,17 +8,17 @@
 """
 
 import heapq
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tlcomm_core.game.adjustment import adjusted_places
+from tlcomm_core.game.bounded_costs import BoundedCosts
 from tlcomm_core.game.limits import Limits, contested
 from tlcomm_core.game.placement import cheapest_placement
-from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Profile, RoundProblem
 
 __all__ = ["MOST_AGENTS", "MOST_DECISIONS", "WHOLE", "Optimum", "Share", "solve_exactly"]
@@ -26,7 +26,7 @@ __all__ = ["MOST_AGENTS", "MOST_DECISIONS", "WHOLE", "Optimum", "Share", "solve_
 MOST_AGENTS: Final = 10
 """Each further agent triples the time and doubles the memory."""
 
-MOST_DECISIONS: Final = 200
+MOST_DECISIONS: Final = 100
 """How often a search decides on single agents, where rules forbid the cheapest placements, before
 it leaves a gap: each decision only rules out a few of all placements."""
 
@@ -221,17 +221,19 @@ class _Search:
             return
         # The same placement serves every bound from its own latest arrival on.
         own = max(first, int(np.searchsorted(times_s, self._costs.meeting_s(profile))))
-        if self._costs.is_admissible(profile):
-            potential_s = self._costs.potential_s(profile)
-            if potential_s < self._best_s:
-                self._best, self._best_s = profile, potential_s
-        else:
-            agent = self._costs.contested(profile, limits)
-            if agent is not None:
-                dispute = (agent, profile.location[agent])
-                self._push(own, last, placement_s, limits, dispute)
+        adjusted = self._costs.adjusted(profile, times_s[last])
+        if adjusted is not None:
+            self._take(adjusted)
+        if adjusted != profile and (agent := self._costs.contested(profile, limits)) is not None:
+            self._push(own, last, placement_s, limits, (agent, profile.location[agent]))
         if own > first:
             self._push(first, own - 1, placement_s, limits)
+
+    def _take(self, profile: Profile) -> None:
+        """Keep an admissible team strategy if it is the best so far."""
+        potential_s = self._costs.potential_s(profile)
+        if potential_s < self._best_s:
+            self._best, self._best_s = profile, potential_s
 
     def _push(
         self,
@@ -257,19 +259,14 @@ class _Costs:
     """
 
     def __init__(self, problem: RoundProblem) -> None:
-        self.team = len(problem.candidates)
         self._problem = problem
-        self._opens_s, _ = problem.window_s
-        self._since_s = [own.arrival_s - self._opens_s for own in problem.candidates]
-        self._gain_s = [
-            own.extra_s - np.where(np.isfinite(since_s), since_s, 0.0)
-            for own, since_s in zip(problem.candidates, self._since_s, strict=True)
-        ]
-        separation_m = problem.rules.separation_m
-        self._neighbourhood = problem.links.neighbourhood_apart(separation_m)
-        earliest_s = max(0.0, *(float(since_s.min()) for since_s in self._since_s))
-        arrivals_s = np.concatenate([since_s.ravel() for since_s in self._since_s])
-        later_s = arrivals_s[np.isfinite(arrivals_s) & (arrivals_s > earliest_s)]
+        self._bounded = BoundedCosts(problem)
+        self._neighbourhood = problem.links.neighbourhood_apart(problem.rules.separation_m)
+        self.team = self._bounded.team
+        opens_s, _ = problem.window_s
+        since_s = np.concatenate([own.arrival_s.ravel() for own in problem.candidates]) - opens_s
+        earliest_s = self._bounded.earliest_s
+        later_s = since_s[np.isfinite(since_s) & (since_s > earliest_s)]
         self.times_s = np.unique(np.append(later_s, earliest_s))
 
     def placement(
@@ -277,13 +274,7 @@ class _Costs:
     ) -> tuple[float, Profile | None]:
         """Return P(τ) for a bound τ and what attains it, if P(τ) is less than ``room_s``."""
         links, separation_m = self._problem.links, self._problem.rules.separation_m
-        costs_s = np.array(
-            [
-                np.where(since_s <= latest_s, gain_s, np.inf).min(axis=0)
-                for since_s, gain_s in zip(self._since_s, self._gain_s, strict=True)
-            ]
-        )
-        costs_s = limits.applied(costs_s, links, separation_m)
+        costs_s = limits.applied(self._bounded.at(latest_s), links, separation_m)
         least_s = costs_s.min(axis=1)
         if not np.isfinite(least_s).all():
             return np.inf, None
@@ -294,12 +285,28 @@ class _Costs:
         placement = cheapest_placement(costs_s[:, kept], self._neighbourhood.among(kept))
         if not placement.cost < room_s:
             return np.inf, None
-        locations = tuple(kept[list(placement.locations)].tolist())
-        return placement.cost, Profile(locations, self._best_candidates(locations, latest_s))
+        locations = kept[list(placement.locations)].tolist()
+        return placement.cost, self._bounded.profile(locations, latest_s)
 
-    def is_admissible(self, profile: Profile) -> bool:
-        """Return whether the rules allow a connected placement."""
-        return self._problem.is_admissible(profile.location)
+    def adjusted(self, profile: Profile, latest_s: float) -> Profile | None:
+        """Return a placement that the rules allow, near to one that they needn't, if one is found.
+
+        It is the same if they do.
+        """
+        wanted = profile.location
+        costs_s = self._bounded.at(latest_s)
+        places = adjusted_places(self._problem, costs_s, wanted, self._order(wanted))
+        return None if places is None else self._bounded.profile(places, latest_s)
+
+    def _order(self, places: Sequence[int]) -> list[int]:
+        """Return the agents of a connected placement, each but the first linked to one before."""
+        order = [0]
+        for agent in order:
+            near = self._problem.links.near(places[agent]).tolist()
+            order += [
+                other for other, place in enumerate(places) if place in near and other not in order
+            ]
+        return order
 
     def contested(self, profile: Profile, limits: Limits) -> int | None:
         """Return the agent to decide on in a forbidden placement; None if all are decided on."""
@@ -307,17 +314,8 @@ class _Costs:
 
     def potential_s(self, profile: Profile) -> float:
         """Return Φ."""
-        return potential(self._problem.strategies(profile), self._opens_s)
+        return self._bounded.potential_s(profile)
 
     def meeting_s(self, profile: Profile) -> float:
         """Return t_c."""
-        return max(0.0, *(float(since_s[h, z]) for since_s, h, z in self._chosen(profile)))
-
-    def _chosen(self, profile: Profile) -> Iterator[tuple[NDArray[np.float64], int, int]]:
-        return zip(self._since_s, profile.candidate, profile.location, strict=True)
-
-    def _best_candidates(self, locations: tuple[int, ...], latest_s: float) -> tuple[int, ...]:
-        return tuple(
-            int(np.argmin(np.where(since_s[:, z] <= latest_s, gain_s[:, z], np.inf)))
-            for since_s, gain_s, z in zip(self._since_s, self._gain_s, locations, strict=True)
-        )
+        return self._bounded.meeting_s(profile)
