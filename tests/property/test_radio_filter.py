@@ -82,6 +82,21 @@ def test_neither_order_nor_other_instants_change_what_is_heard_when(
     assert counted.undelivered == expected.undelivered
 
 
+@given(RADIOS, SAID, st.permutations(range(20)))
+def test_neither_does_the_order_when_all_is_asked_for_at_once(
+    radio: model.Radio, said: list[Said], order: list[int]
+) -> None:
+    """However late they are asked for, messages are heard in the same order."""
+    radios = made(radio), made(radio)
+    for each in said:
+        radios[0].receive(each.message, each.sent_ns)
+    for index in order:
+        for each in said[index : index + 1]:
+            radios[1].receive(each.message, each.sent_ns)
+    assert radios[0].heard(END_NS) == radios[1].heard(END_NS)
+    assert radios[0].undelivered == radios[1].undelivered
+
+
 @given(RADIOS, SAID)
 def test_nothing_is_early_nor_later_than_it_may_be(radio: model.Radio, said: list[Said]) -> None:
     """The latency is the least, jitter and what the queue may take are the most."""

@@ -100,6 +100,28 @@ def test_who_is_out_of_range_is_not_heard() -> None:
     assert (one.undelivered, alone.undelivered) == ({"out of range": 1}, {})
 
 
+def test_it_asks_to_be_woken_for_what_is_still_under_way() -> None:
+    """A message delayed at random is heard when it is due, not when something else happens."""
+    site = hall(2)
+    radio = Radio(jitter_s=0.05)
+    late = Site.from_scenario(site.scenario.model_copy(update={"radio": radio}))
+    one = create("one", late, Pacing.EVENT, Atlas(site.grid))
+    two = placed("two", 2)
+    one.see_odometry(0, Pose(*STARTS["one"]), 0.0, 0.0)
+    one.see_neighbours(0, {"two": 0.5})
+    for message in said(two, 0):
+        one.receive(message, 0)
+    one.step(0)
+    one.step(LATENCY_NS)
+    due_ns = one._radio.next_due_ns
+    assert due_ns is not None
+    while (need_ns := one.next_need_ns) is not None and need_ns < due_ns:
+        assert all(repeated.known == ("one",) for repeated in said(one, need_ns))  # type: ignore[union-attr]
+    assert need_ns == due_ns
+    (offer, *_) = said(one, due_ns)
+    assert offer.known == ("one", "two")  # type: ignore[union-attr]
+
+
 def test_it_counts_what_is_said_to_it_on_the_way() -> None:
     """Away from a meeting, the radio lets a neighbour through, and the brain ignores it."""
     one, two = placed("one", 1), placed("two", 2)

@@ -8,12 +8,16 @@ from tlcomm_core.world.radio import pair_indices
 from tlcomm_core.world.reach import Reach
 
 WALLED = Reach(2.0, Grid((6.0, 6.0), 0.5, [(2.0, 2.0, 3.0, 4.0)]))
-PAIR = (np.array([0]), np.array([1]))
 
 
-def passages_s(places: list[list[float]], velocities: list[list[float]]) -> list[float]:
-    """Return when two agents' line of sight passes a corner within 10 s, ascending."""
-    times_s = WALLED.corner_times_s(np.array(places), np.array(velocities), PAIR, 10.0)
+def changes_s(
+    places: list[list[float]], velocities: list[list[float]], linked: bool = True
+) -> list[float]:
+    """Return the corners' times after which two agents' sight is another than now, ascending."""
+    times_s, pairs = WALLED.sight_changes_s(
+        np.array(places), np.array(velocities), np.array([linked]), 10.0
+    )
+    assert not pairs.any()
     return sorted(times_s.tolist())
 
 
@@ -36,20 +40,22 @@ def test_a_wall_hides_who_is_in_range() -> None:
     assert WALLED.linked(np.stack((places_m, places_m[::-1]))).sum(axis=1).tolist() == [3, 3]
 
 
-def test_corners_are_passed_when_they_are_in_line() -> None:
-    """Side by side along both sides of the wall, its lower corners at 2 s, the upper at 4 s."""
-    found = passages_s([[1.5, 0.0], [3.5, 0.0]], [[0.0, 1.0], [0.0, 1.0]])
-    assert found == pytest.approx([2.0, 2.0, 4.0, 4.0], abs=1e-6)
+def test_sight_goes_when_a_corner_is_in_line() -> None:
+    """Along both sides of the wall: hidden from the first corner in line to the last."""
+    abreast = [[1.5, 0.0], [3.4, 0.38]], [[0.0, 1.0], [0.0, 1.0]]
+    assert changes_s(*abreast) == pytest.approx([1.7, 1.9, 3.7], abs=1e-6)
+    assert changes_s(*abreast, linked=False) == pytest.approx([3.9], abs=1e-6)
 
 
 def test_one_drives_while_the_other_waits() -> None:
-    """From (3.5, 4.5) the corner at (2, 4) is in line with the track x = 1.5 at y = 3.833."""
-    found = passages_s([[1.5, 3.0], [3.5, 4.5]], [[0.0, 0.1], [0.0, 0.0]])
-    assert found == pytest.approx([25.0 / 3.0], abs=1e-6)
+    """From (3.4, 4.5) the corner at (2, 4) is in line with the track x = 1.5 at y = 3.82."""
+    coming = [[1.5, 3.0], [3.4, 4.5]], [[0.0, 0.1], [0.0, 0.0]]
+    assert changes_s(*coming, linked=False) == pytest.approx([(4.5 - 3.0 - 9.5 / 14.0) / 0.1])
+    assert changes_s(*coming) == []
 
 
 def test_what_is_out_of_reach_is_left_out() -> None:
-    """Far from any corner, at rest, or with the corner behind one of them, nothing is passed."""
-    assert passages_s([[0.5, 0.2], [0.5, 1.0]], [[0.0, -0.1], [0.0, -0.1]]) == []
-    assert passages_s([[1.5, 3.0], [3.5, 3.0]], [[0.0, 0.0], [0.0, 0.0]]) == []
-    assert passages_s([[3.5, 1.5], [4.5, 1.5]], [[0.0, 0.1], [0.0, 0.1]]) == []
+    """Far from any corner, at rest, or with the corner behind one of them, nothing changes."""
+    assert changes_s([[0.5, 0.2], [0.5, 1.0]], [[0.0, -0.1], [0.0, -0.1]]) == []
+    assert changes_s([[1.5, 3.0], [3.5, 3.0]], [[0.0, 0.0], [0.0, 0.0]], linked=False) == []
+    assert changes_s([[3.5, 1.5], [4.5, 1.5]], [[0.0, 0.1], [0.0, 0.1]]) == []

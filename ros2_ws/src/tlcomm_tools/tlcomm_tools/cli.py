@@ -29,6 +29,7 @@ VERBS: Final = {
     "check": "audit a run from its bag",
     "validate": "check a scenario file",
     "bench": "measure planning, solving and simulating",
+    "network": "rehearse meetings over bad radio",
 }
 _HELP: Final = ("-h", "--help")
 _BREAKING: Final = {errno.ENOSPC, errno.EDQUOT, errno.EIO}

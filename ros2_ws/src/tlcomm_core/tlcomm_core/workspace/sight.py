@@ -102,11 +102,15 @@ def _cross(
     ends_m: NDArray[np.float64], low_m: NDArray[np.float64], high_m: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
     """Tell of segments, float[2, S, 2], which lead through a box, bool[S]."""
-    start_m, step_m = ends_m[0][:, np.newaxis], (ends_m[1] - ends_m[0])[:, np.newaxis]
-    # Along a side's very line: 0 / 0, and NaN compares as not crossing.
-    with np.errstate(divide="ignore", invalid="ignore"):
-        to_low, to_high = (low_m - start_m) / step_m, (high_m - start_m) / step_m
-    enter = np.maximum(np.minimum(to_low, to_high).max(axis=2), 0.0)
-    leave = np.minimum(np.maximum(to_low, to_high).min(axis=2), 1.0)
+    enter, leave = 0.0, 1.0
+    # Axis by axis, which is quicker than reducing over two of them.
+    for axis in (0, 1):
+        start_m, end_m = ends_m[0][:, np.newaxis, axis], ends_m[1][:, np.newaxis, axis]
+        # Along a side's very line: 0 / 0, and NaN compares as not crossing.
+        with np.errstate(divide="ignore", invalid="ignore"):
+            to_low = (low_m[:, axis] - start_m) / (end_m - start_m)
+            to_high = (high_m[:, axis] - start_m) / (end_m - start_m)
+        enter = np.maximum(enter, np.minimum(to_low, to_high))
+        leave = np.minimum(leave, np.maximum(to_low, to_high))
     crossing: NDArray[np.bool_] = ((low_m < high_m).all(axis=1) & (enter < leave)).any(axis=1)
     return crossing

@@ -94,7 +94,7 @@ class Forecast:
         """Look for changes by arcs and of sight in the next window."""
         start_ns = self._followed_ns
         self._followed_ns = start_ns + _WINDOW_NS
-        brackets = [*self._seen_on_arcs(start_ns), *self._corners_passed(start_ns)]
+        brackets = [*self._seen_on_arcs(start_ns), *self._sight_changes_ns(start_ns)]
         change = self._first_shown(sorted(brackets, key=itemgetter(1)))
         if change and (self._change is None or change.time_ns < self._change.time_ns):
             self._change = change
@@ -110,20 +110,16 @@ class Forecast:
         for at in np.flatnonzero(differs.any(axis=1)).tolist():
             yield int(times_ns[max(at - 1, 0)]), int(times_ns[at])
 
-    def _corners_passed(self, start_ns: int) -> Iterator[tuple[int, int]]:
-        """Yield when lines of sight without an arc pass corners: (before, at or after)."""
+    def _sight_changes_ns(self, start_ns: int) -> Iterator[tuple[int, int]]:
+        """Yield when sight of pairs without an arc comes or goes: (before, at or after)."""
         if not self._reach.is_hindered:
             return
         first, second = pair_indices(len(self._courses))
-        moves = self._velocities_mps.any(axis=1)
-        chosen = (moves[first] | moves[second]) & ~(self._curved[first] | self._curved[second])
-        after_s = self._reach.corner_times_s(
-            self._places_m(start_ns),
-            self._velocities_mps,
-            (first[chosen], second[chosen]),
-            _WINDOW_NS * 1e-9,
+        after_s, pairs = self._reach.sight_changes_s(
+            self._places_m(start_ns), self._velocities_mps, self._linked, _WINDOW_NS * 1e-9
         )
-        for after_ns in np.ceil(after_s * 1e9).tolist():
+        straight = ~(self._curved[first[pairs]] | self._curved[second[pairs]])
+        for after_ns in np.ceil(after_s[straight] * 1e9).tolist():
             time_ns = start_ns + max(int(after_ns), 1)
             yield time_ns - 1, time_ns
 

@@ -65,31 +65,57 @@ class Reach:
             return np.ones(len(from_m), dtype=np.bool_)
         return sightlines(self._walls, from_m, to_m)
 
-    def corner_times_s(
+    def sight_changes_s(
         self,
         places_m: NDArray[np.float64],
         velocities_mps: NDArray[np.float64],
-        pairs: tuple[NDArray[np.intp], NDArray[np.intp]],
+        linked: NDArray[np.bool_],
         within_s: float,
-    ) -> NDArray[np.float64]:
-        """Return when the straights between agents in range pass the corners of obstacles.
+    ) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+        """Return when sight between agents in range comes or goes, if all go on straight.
 
-        Only then can sight come or go. (p + u·t − c) × (q + v·t − c) is zero at such a t: a
-        quadratic for the places p and q, the velocities u and v and the corner c.
+        That is only when a corner of an obstacle is in line with both. Such times are left out if
+        afterwards, as the middle before the pair's next one tells, sight is the same as now.
 
         Args:
             places_m: where all are, float[N, 2].
             velocities_mps: their velocities, which stay, float[N, 2].
-            pairs: which ones are looked at, int[K] each.
+            linked: the pairs that are linked now, bool[N(N-1)/2].
             within_s: how far ahead.
 
         Returns:
-            Times from now on, in no order; some without any change.
+            Times from now on, in no order; and whose, as indices of pairs.
 
-        Cost: O(N · corners), and a quadratic for each pair that may be near a corner.
+        Cost: O(N² + N · corners), and a quadratic for each pair that is near a corner.
         """
-        pairs_at, corners_at = self._encounters(places_m, velocities_mps, pairs, within_s)
-        first, second = (members[pairs_at] for members in pairs)
+        times_s, pairs = self._in_line(places_m, velocities_mps, within_s)
+        order = np.lexsort((times_s, pairs))
+        times_s, pairs = times_s[order], pairs[order]
+        is_last = np.ones(len(pairs), dtype=np.bool_)
+        is_last[:-1] = pairs[1:] != pairs[:-1]
+        middles_s = (times_s + np.where(is_last, within_s, np.roll(times_s, -1))) / 2.0
+        from_m, to_m = (
+            places_m[own] + velocities_mps[own] * middles_s[:, np.newaxis]
+            for own in self._members(pairs, len(places_m))
+        )
+        linked_then = ((to_m - from_m) ** 2).sum(axis=1) <= self.range_m**2
+        linked_then[linked_then] = self.seen(from_m[linked_then], to_m[linked_then])
+        changed = linked_then != linked[pairs]
+        return times_s[changed], pairs[changed]
+
+    def _in_line(
+        self,
+        places_m: NDArray[np.float64],
+        velocities_mps: NDArray[np.float64],
+        within_s: float,
+    ) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+        """Return when corners are between agents and in line with both, and which pairs these are.
+
+        (p + u·t − c) × (q + v·t − c) is zero then, for the places p and q, the velocities u and v
+        and the corner c.
+        """
+        pairs, corners_at = self._encounters(places_m, velocities_mps, within_s)
+        first, second = self._members(pairs, len(places_m))
         p, q = (places_m[own] - self._corners_m[corners_at] for own in (first, second))
         u, v = velocities_mps[first], velocities_mps[second]
         times_s = _roots(_cross(u, v), _cross(u, q) + _cross(p, v), _cross(p, q))
@@ -98,23 +124,31 @@ class Reach:
         to_first = p[at] + u[at] * times_s[:, np.newaxis]
         to_second = q[at] + v[at] * times_s[:, np.newaxis]
         between = (to_first * to_second).sum(axis=1) <= _SLACK_M2
-        passed_s: NDArray[np.float64] = times_s[between]
-        return passed_s
+        return times_s[between], pairs[at[between]]
 
     def _encounters(
         self,
         places_m: NDArray[np.float64],
         velocities_mps: NDArray[np.float64],
-        pairs: tuple[NDArray[np.intp], NDArray[np.intp]],
         within_s: float,
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return which pairs may soon have which corners between them: both are in reach of it."""
-        reach_m = self.range_m + np.abs(velocities_mps) * within_s
+        """Return which pairs may soon be in range with which corners between them."""
+        first, second = pair_indices(len(places_m))
+        driven_m = np.abs(velocities_mps).sum(axis=1) * within_s
+        near = distances_m(places_m) <= self.range_m + driven_m[first] + driven_m[second]
+        moving = driven_m > 0.0
+        pairs = np.flatnonzero(near & (moving[first] | moving[second]))
         offsets_m = np.abs(self._corners_m - places_m[:, np.newaxis])
-        close = (offsets_m <= reach_m[:, np.newaxis]).all(axis=2)
-        first, second = pairs
-        pairs_at, corners_at = np.nonzero(close[first] & close[second])
-        return pairs_at, corners_at
+        offsets_m = np.maximum(offsets_m[..., 0], offsets_m[..., 1])
+        close = offsets_m <= (self.range_m + driven_m)[:, np.newaxis]
+        at, corners_at = np.nonzero(close[first[pairs]] & close[second[pairs]])
+        return pairs[at], corners_at
+
+    def _members(
+        self, pairs: NDArray[np.intp], count: int
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        first, second = pair_indices(count)
+        return first[pairs], second[pairs]
 
 
 def _cross(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.float64]:

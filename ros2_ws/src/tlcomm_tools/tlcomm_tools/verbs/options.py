@@ -4,6 +4,7 @@
 ``add_pace_argument``      how simulated time goes on
 ``add_solver_argument``    how rounds are solved
 ``positive_int``, ``not_negative_int``, ``positive_float``, ``positive_fraction``   types
+``not_negative_float``, ``share``   more types
 ``pace``, ``method``, ``solver``  more types
 ``mission_end``            how long to run
 ``print_json``             one document on standard output
@@ -29,12 +30,14 @@ __all__ = [
     "add_solver_argument",
     "method",
     "mission_end",
+    "not_negative_float",
     "not_negative_int",
     "pace",
     "positive_float",
     "positive_fraction",
     "positive_int",
     "print_json",
+    "share",
     "solver",
 ]
 
@@ -65,8 +68,24 @@ def not_negative_int(text: str) -> int:
 def positive_float(text: str) -> float:
     """Read a finite number greater than 0."""
     value = _number(text)
-    if value is None:
+    if not value:
         raise argparse.ArgumentTypeError(f"expected a number greater than 0, not {text!r}")
+    return value
+
+
+def not_negative_float(text: str) -> float:
+    """Read a finite number from 0 on."""
+    value = _number(text)
+    if value is None:
+        raise argparse.ArgumentTypeError(f"expected a number from 0 on, not {text!r}")
+    return value
+
+
+def share(text: str) -> float:
+    """Read a number from 0 to 1."""
+    value = _number(text)
+    if value is None or value > 1.0:
+        raise argparse.ArgumentTypeError(f"expected a number from 0 to 1, not {text!r}")
     return value
 
 
@@ -189,9 +208,9 @@ def _whole(text: str) -> int | None:
 
 
 def _number(text: str) -> float | None:
-    """Return a positive finite number, or ``None``."""
+    """Return a finite number from 0 on, or ``None``."""
     try:
         value = float(text)
     except ValueError:
         return None
-    return value if math.isfinite(value) and value > 0.0 else None
+    return value if math.isfinite(value) and value >= 0.0 else None
