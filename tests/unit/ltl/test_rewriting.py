@@ -27,6 +27,15 @@ from tlcomm_core.ltl.rewriting import rewritten
         ("(F a) M b", "F a & b"),
         ("(G a) W b", "G a | b"),
         ("a U b | (c & (a U b))", "a U b"),
+        ("X a & X b", "X (a & b)"),
+        ("X a U X b", "X (a U b)"),
+        ("X X a R X b", "X (X a R b)"),
+        ("(X a U X b) | !X (a U b)", "true"),
+        ("F a & ((F a & b) | G c)", "F a & (b | G c)"),
+        ("((F a & b) | G c) & F a", "(b | G c) & F a"),
+        ("F a & (X b | G !a)", "F a & X b"),
+        ("G a | (b & (G a | c))", "G a | (b & c)"),
+        ("a | (G b & (!a | c))", "a | G b"),
     ],
 )
 def test_rules_shorten(text: str, shorter: str) -> None:

@@ -3,6 +3,7 @@
 import re
 import shutil
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from rosbags.rosbag2 import StoragePlugin, Writer
@@ -11,9 +12,11 @@ from rosbags.typesys import Stores, get_typestore
 from support.hand_made_run import AGENTS, SHARE, hand_made_records, serialize_run, write_bag
 from tlcomm_core.errors import InputError
 from tlcomm_core.records import RunRecords, event_log
+from tlcomm_core.world.observation import Connectivity
 from tlcomm_tools.bag.definitions import load_typestore
 from tlcomm_tools.bag.reader import read_run
 from tlcomm_tools.bag.topics import recorded_topics
+from tlcomm_tools.wire import read_connectivity
 
 
 def assert_equal(read: RunRecords, written: RunRecords) -> None:
@@ -23,6 +26,14 @@ def assert_equal(read: RunRecords, written: RunRecords) -> None:
     assert read.connectivity == written.connectivity
     assert sorted(read.timings, key=repr) == sorted(written.timings, key=repr)
     assert read.messages_sent == written.messages_sent
+    assert read.messages_undelivered == written.messages_undelivered
+
+
+def test_a_connectivity_of_before_has_no_distances() -> None:
+    """Bags from before they were told can still be read."""
+    header = SimpleNamespace(stamp=SimpleNamespace(sec=1, nanosec=2))
+    old = SimpleNamespace(header=header, edges=[0, 1], connected=True)
+    assert read_connectivity(old) == Connectivity(1_000_000_002, ((0, 1),), connected=True)
 
 
 def test_a_bag_gives_back_the_records(tmp_path: Path) -> None:

@@ -25,7 +25,10 @@ BAD_VALUES = [
     (["simulate", CORRIDOR, "--until", "nan"], "--until: expected a number greater than 0"),
     (["simulate", CORRIDOR, "--seed", "-3"], "--seed: expected a whole number from 0 on"),
     (["simulate", CORRIDOR, "--pace", "2.0"], "--pace: '2.0' is for 'tlcomm run'"),
-    (["simulate", CORRIDOR, "--solver", "nonsense"], "(choose from 'best-response', 'exact')"),
+    (
+        ["simulate", CORRIDOR, "--solver", "nonsense"],
+        "(choose from 'best-response', 'coalition', 'exact')",
+    ),
     (["simulate", CORRIDOR, "--solver", "nonsense"], "invalid choice: 'nonsense'"),
     (["simulate", CORRIDOR, "--method", "pairwise"], "'pairwise' is not available yet"),
     (["simulate", CORRIDOR, "--method", "magic"], "invalid choice: 'magic' (choose from 'team')"),

@@ -20,7 +20,13 @@ RESULT = {
     "rounds": [],
     "communication": {"windows": 2, "satisfied": 1, "missed": 1},
     "agents": {
-        "one": {"tasks_satisfied": 0, "makespan_s": None, "distance_m": 0.0, "messages_sent": None}
+        "one": {
+            "tasks_satisfied": 0,
+            "makespan_s": None,
+            "distance_m": 0.0,
+            "messages_sent": None,
+            "messages_undelivered": None,
+        }
     },
 }
 

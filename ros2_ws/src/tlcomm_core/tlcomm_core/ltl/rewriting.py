@@ -50,19 +50,27 @@ class _Rules:
 
     def apply(self, operator: Operator, operands: list[Formula], leaf: Formula) -> Formula:
         """Return what an operator over simplified operands becomes; ``leaf`` is the node itself."""
-        match operator:
-            case Operator.AND | Operator.OR:
-                return self._boolean(operator, operands[0], operands[1])
-            case Operator.NEXT:
-                return self._next(operands[0])
-            case Operator.EVENTUALLY | Operator.ALWAYS:
-                return self._unary(operator, operands[0])
-            case Operator.UNTIL | Operator.WEAK_UNTIL:
-                return self._until(operator, operands[0], operands[1])
-            case Operator.RELEASE | Operator.STRONG_RELEASE:
-                return self._release(operator, operands[0], operands[1])
+        match operands:
+            case [left, right] if left.operator is right.operator is Operator.NEXT:
+                # X a U X b = X (a U b), and so for all operators of two operands.
+                return self._next(self.apply(operator, [*left.children, *right.children], leaf))
+            case [left, right]:
+                return self._binary(operator, left, right)
+            case [operand] if operator is Operator.NEXT:
+                return self._next(operand)
+            case [operand] if operator in {Operator.EVENTUALLY, Operator.ALWAYS}:
+                return self._unary(operator, operand)
             case _:
                 return leaf
+
+    def _binary(self, operator: Operator, left: Formula, right: Formula) -> Formula:
+        match operator:
+            case Operator.AND | Operator.OR:
+                return self._boolean(operator, left, right)
+            case Operator.UNTIL | Operator.WEAK_UNTIL:
+                return self._until(operator, left, right)
+            case _:
+                return self._release(operator, left, right)
 
     def _negated(self, formula: Formula) -> Formula:
         found = self._negations.get(formula)
@@ -85,7 +93,8 @@ class _Rules:
         """Return whether the formula surely says the same about every suffix of a word."""
         return self._implication.is_eventual(formula) and self._implication.is_universal(formula)
 
-    def _boolean(self, operator: Operator, left: Formula, right: Formula) -> Formula:
+    def _boolean(self, operator: Operator, left: Formula, right: Formula) -> Formula:  # noqa: PLR0911  one answer per rule
+        """Simplify AND and OR."""
         conjunction = operator is Operator.AND
         if self._implies(left, right):
             return left if conjunction else right
@@ -95,12 +104,34 @@ class _Rules:
             return FALSE
         if not conjunction and self._covers(left, right):
             return TRUE
+        first = self._given(operator, left, right)
+        second = self._given(operator, right, left) if first is left else right
+        if first is not left or second is not right:
+            return self._boolean(operator, first, second)
         # G a & G b = G (a & b) and F a | F b = F (a | b).
         shared = Operator.ALWAYS if conjunction else Operator.EVENTUALLY
         if left.operator is shared and right.operator is shared:
             both = self._boolean(operator, left.children[0], right.children[0])
             return self._unary(shared, both)
         return Formula(operator, (left, right))
+
+    def _given(self, operator: Operator, formula: Formula, fact: Formula) -> Formula:
+        """Simplify a Boolean formula that stands beside a fact under AND or OR.
+
+        Under AND the fact may be taken to hold, under OR not to hold.
+        """
+        if formula.operator in {Operator.AND, Operator.OR}:
+            parts = [self._given(operator, part, fact) for part in formula.children]
+            if all(new is old for new, old in zip(parts, formula.children, strict=True)):
+                return formula
+            return self._boolean(formula.operator, parts[0], parts[1])
+        if operator is Operator.AND:
+            if self._implies(fact, formula):
+                return TRUE
+            return FALSE if self._excludes(fact, formula) else formula
+        if self._implies(formula, fact):
+            return FALSE
+        return TRUE if self._covers(fact, formula) else formula
 
     def _next(self, operand: Formula) -> Formula:
         return operand if self._is_tail(operand) else Formula(Operator.NEXT, (operand,))
