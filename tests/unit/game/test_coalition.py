@@ -114,7 +114,7 @@ def test_rules_leave_room_for_improvement() -> None:
 
 def test_fifty_agents_are_no_obstacle() -> None:
     """One of fifty finds what is far better than single moves from S⁰ do."""
-    problem, start = sample(0, (50, 3, 25, 25))
+    problem, start = sample(1, (50, 3, 25, 25))
     proposal = propose(problem, start, 7)
     assert is_equilibrium(problem, proposal)
-    assert potential_s(problem, proposal) < 0.9 * solve(problem).potentials_s[-1]
+    assert potential_s(problem, proposal) < 0.8 * solve(problem).potentials_s[-1]
