@@ -113,8 +113,9 @@ def test_rules_leave_room_for_improvement() -> None:
 
 
 def test_fifty_agents_are_no_obstacle() -> None:
-    """One of fifty finds what is far better than single moves from S⁰ do."""
-    problem, start = sample(0, (50, 3, 25, 25))
-    proposal = propose(problem, start, 7)
-    assert is_equilibrium(problem, proposal)
-    assert potential_s(problem, proposal) < 0.9 * solve(problem).potentials_s[-1]
+    """A few of them find what is far better than single moves from S⁰ do."""
+    problem, start = sample(1, (50, 3, 25, 25))
+    proposals = [propose(problem, start, searcher) for searcher in (0, 15, 30)]
+    assert all(is_equilibrium(problem, proposal) for proposal in proposals)
+    least_s = min(potential_s(problem, proposal) for proposal in proposals)
+    assert least_s < 0.85 * solve(problem).potentials_s[-1]

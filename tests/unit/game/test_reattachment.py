@@ -32,6 +32,17 @@ def test_costs_fall_and_the_tree_stays_a_tree(seed: int) -> None:
     assert programme.cost() == pytest.approx(fresh.cost())
 
 
+def test_costs_never_rise() -> None:
+    """What is promised isn't always kept: then the tree stays as it was."""
+    for seed in range(30):
+        programme = chain(seed, 7)
+        costs = [programme.cost()]
+        for _ in range(4):
+            programme = reattach(programme, LINKS.neighbourhood)
+            costs.append(programme.cost())
+        assert costs == sorted(costs, reverse=True)
+
+
 def test_an_end_is_joined_to_whom_it_is_near() -> None:
     """Agent 3 lives beside agent 0, out of range of agent 2 to which it is joined."""
     homes_m = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 1.0]])

@@ -31,7 +31,9 @@ def test_a_row_for_each_solver_and_size_that_fits() -> None:
         ("best-response", 12, "best-response"),
         ("coalition", 12, "best-response"),
     ]
-    assert all(row.agent_s > 0.0 and row.worst_ratio >= row.mean_ratio for row in rows)
+    assert all(
+        row.initial_s > 0.0 < row.agent_s and row.worst_ratio >= row.mean_ratio for row in rows
+    )
     best_response, coalition, exact = rows[:3]
     assert best_response.mean_ratio > coalition.mean_ratio >= 1.0 - 1e-9
     assert coalition.mean_ratio >= exact.mean_ratio == 1.0
@@ -50,7 +52,7 @@ def test_without_the_optimum_best_responses_are_the_measure() -> None:
 
 def test_growth_is_the_slope_between_logarithms() -> None:
     """Eight times the time for twice the agents is N³; one size tells nothing."""
-    row = SolverRow("s", "i", 10, 1, 0.5, "s", 1.0, 1.0)
+    row = SolverRow("s", "i", 10, 1, 0.1, 0.5, "s", 1.0, 1.0)
     rows = [row, replace(row, agents=20, agent_s=4.0), replace(row, solver="t", agent_s=9.0)]
     assert growth(rows, "s") == pytest.approx(3.0)
     assert growth(rows, "t") is None

@@ -35,8 +35,9 @@ class SolverRow:
         instances: their name.
         agents: N.
         count: how many instances.
-        agent_s: median processor time from the candidates to one agent's proposal; for best
-            responses, to the equilibrium, all agents in one place.
+        initial_s: median processor time from the candidates to S⁰.
+        agent_s: median processor time from there to one agent's proposal; for best responses, to
+            the equilibrium, all agents in one place.
         reference: what potentials are compared with: the solver that is the best there.
         mean_ratio: Φ over the reference's, in the mean.
         worst_ratio: the same, at worst.
@@ -46,6 +47,7 @@ class SolverRow:
     instances: str
     agents: int
     count: int
+    initial_s: float
     agent_s: float
     reference: str
     mean_ratio: float
@@ -54,9 +56,10 @@ class SolverRow:
 
 @dataclass(frozen=True, slots=True)
 class _Outcome:
-    """What a team finds in one round, and the processor times that its agents take."""
+    """What a team finds in one round, and the processor times for S⁰ and what follows."""
 
     potential_s: float
+    initial_s: float
     times_s: tuple[float, ...]
 
 
@@ -111,17 +114,19 @@ def _solve(problem: RoundProblem, solver: Solver, searchers: int) -> _Outcome:
     opens_s, _ = problem.window_s
     potentials_s: list[float] = []
     times_s: list[float] = []
+    begun_s = time.process_time()
+    initial = initial_profile(problem)
+    initial_s = time.process_time() - begun_s
     searching = range(0, team, max(1, team // searchers))[:searchers]
     for searcher in searching if solver.propose is not None else (0,):
         begun_s = time.process_time()
-        profile = initial_profile(problem)
         if solver.propose is None:
-            profile = improve(problem, profile).nash
+            profile = improve(problem, initial).nash
         else:
-            profile = solver.propose(problem, profile, searcher).profile
+            profile = solver.propose(problem, initial, searcher).profile
         times_s.append(time.process_time() - begun_s)
         potentials_s.append(potential(problem.strategies(profile), opens_s))
-    return _Outcome(min(potentials_s), tuple(times_s))
+    return _Outcome(min(potentials_s), initial_s, tuple(times_s))
 
 
 def _row(
@@ -136,6 +141,7 @@ def _row(
         instances=own.name,
         agents=own.agents,
         count=own.count,
+        initial_s=statistics.median(outcome.initial_s for outcome in outcomes[solver]),
         agent_s=statistics.median(
             time_s for outcome in outcomes[solver] for time_s in outcome.times_s
         ),

@@ -66,9 +66,11 @@ class _Plan:
     close_look: _Effort
 
 
-_LARGE_TEAM: Final = _Plan(parts=8, glance=_Effort(6, 1), finalists=2, close_look=_Effort(1, 5))
 # A coalition of everybody, which is the best for its bound, is what few enough agents can afford.
-_SMALL_TEAM: Final = _Plan(parts=6, glance=_Effort(6, 1), finalists=3, close_look=_Effort(2, 8))
+_SMALL_TEAM: Final = _Plan(parts=8, glance=_Effort(6, 1), finalists=3, close_look=_Effort(2, 8))
+# A large team tries many bounds, however few each of its agents does.
+_TEAM_PARTS: Final = 300
+_LEAST_PARTS: Final = 2
 
 
 def propose(problem: RoundProblem, start: Profile, searcher: int) -> Profile:
@@ -86,13 +88,26 @@ def propose(problem: RoundProblem, start: Profile, searcher: int) -> Profile:
     costs = BoundedCosts(problem)
     neighbourhood = problem.links.neighbourhood_apart(problem.rules.separation_m)
     rng = np.random.default_rng((problem.round, searcher))
-    plan = _SMALL_TEAM if costs.team <= _SMALL_TEAM.close_look.size else _LARGE_TEAM
+    plan = _plan(costs.team)
     glance = _Search(problem, costs, neighbourhood, plan.glance, rng)
     glance.run(_share(problem, costs, searcher, plan.parts))
     close_look = _Search(problem, costs, neighbourhood, plan.close_look, rng)
     close_look.run(trial.interval for trial in heapq.nsmallest(plan.finalists, glance.trials))
     found = (trial.profile for trial in close_look.trials)
     return settled(problem, min((start, *found), key=costs.potential_s))
+
+
+def _plan(team: int) -> _Plan:
+    """Return how an agent of a team of this size searches."""
+    if team <= _SMALL_TEAM.close_look.size:
+        return _SMALL_TEAM
+    parts = max(_LEAST_PARTS, min(_SMALL_TEAM.parts, _TEAM_PARTS // team))
+    return _Plan(
+        parts=parts,
+        glance=_Effort(parts // 2, 1),
+        finalists=max(1, parts // 4),
+        close_look=_Effort(1, 5),
+    )
 
 
 def settled(problem: RoundProblem, profile: Profile) -> Profile:
