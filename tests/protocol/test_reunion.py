@@ -10,7 +10,8 @@ from support.troop import Troop
 from tlcomm_core.agent.actions import TaskEvent, TaskEventKind
 from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message
 
-STARTED, FINISHED, REACHED, BEGUN, ENDED, SATISFIED, AGREED, FAULT, VISITED, CHANGED = TaskEventKind
+REACHED, BEGUN = TaskEventKind.MEETING_REACHED, TaskEventKind.MEETING_STARTED
+ENDED, FAULT = TaskEventKind.MEETING_ENDED, TaskEventKind.FAULT
 NAMES = ("one", "two", "three")
 Cut = Callable[[float, str, Message], bool]
 
