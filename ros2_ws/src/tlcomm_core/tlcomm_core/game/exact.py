@@ -8,7 +8,7 @@
 """
 
 import heapq
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Final
@@ -16,6 +16,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from tlcomm_core.game.adjustment import adjusted_places
 from tlcomm_core.game.bounded_costs import BoundedCosts
 from tlcomm_core.game.centre_bound import centre_bounds, reach
 from tlcomm_core.game.limits import Limits, contested
@@ -27,7 +28,7 @@ __all__ = ["MOST_AGENTS", "MOST_DECISIONS", "WHOLE", "Optimum", "Share", "solve_
 MOST_AGENTS: Final = 10
 """Each further agent triples the time and doubles the memory."""
 
-MOST_DECISIONS: Final = 200
+MOST_DECISIONS: Final = 100
 """How often a search decides on single agents, where rules forbid the cheapest placements, before
 it leaves a gap: each decision only rules out a few of all placements."""
 
@@ -250,17 +251,22 @@ class _Search:
         # The same placement serves every bound from its own latest arrival on.
         meeting_s = self._placements.meeting_s(profile)
         own = max(first, int(np.searchsorted(self._times_s, meeting_s)))
-        if self._placements.is_admissible(profile):
-            potential_s = self._placements.potential_s(profile)
-            if potential_s < self._best_s:
-                self._best, self._best_s = profile, potential_s
-        else:
+        adjusted = self._placements.adjusted(profile, self._times_s[last])
+        if adjusted is not None:
+            self._take(adjusted)
+        if adjusted != profile:
             agent = self._placements.contested(profile, limits)
             if agent is not None:
                 dispute = (agent, profile.location[agent])
                 self._push(own, last, cost_s, limits, is_placed=True, dispute=dispute)
         if own > first:
             self._push(first, own - 1, cost_s, limits, is_placed=True)
+
+    def _take(self, profile: Profile) -> None:
+        """Keep an admissible team strategy if it is the best so far."""
+        potential_s = self._placements.potential_s(profile)
+        if potential_s < self._best_s:
+            self._best, self._best_s = profile, potential_s
 
     def _push(
         self,
@@ -314,9 +320,25 @@ class _Placements:
         locations = kept[list(placement.locations)].tolist()
         return placement.cost, self._costs.profile(locations, latest_s)
 
-    def is_admissible(self, profile: Profile) -> bool:
-        """Return whether the rules allow a connected placement."""
-        return self._problem.is_admissible(profile.location)
+    def adjusted(self, profile: Profile, latest_s: float) -> Profile | None:
+        """Return a placement that the rules allow, near to one that they needn't, if one is found.
+
+        It is the same if they do.
+        """
+        wanted = profile.location
+        costs_s = self._costs.at(latest_s)
+        places = adjusted_places(self._problem, costs_s, wanted, self._order(wanted))
+        return None if places is None else self._costs.profile(places, latest_s)
+
+    def _order(self, places: Sequence[int]) -> list[int]:
+        """Return the agents of a connected placement, each but the first linked to one before."""
+        order = [0]
+        for agent in order:
+            near = self._problem.links.near(places[agent]).tolist()
+            order += [
+                other for other, place in enumerate(places) if place in near and other not in order
+            ]
+        return order
 
     def contested(self, profile: Profile, limits: Limits) -> int | None:
         """Return the agent to decide on in a forbidden placement; None if all are decided on."""

@@ -9,6 +9,7 @@
 ``trespass``    whether agents kept out of what their tasks forbid
 ``conditions``  whether actions had what they need first
 ``strategies``  whether all agents hold the same strategies
+``meetings``    whether their places are as the scenario demands
 ``findings``    all of it as one document
 
 It shares no code with planner, game, protocol and world, so that it can't repeat their mistakes.

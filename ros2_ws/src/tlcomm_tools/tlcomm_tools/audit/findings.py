@@ -12,6 +12,7 @@ from typing import Any, Final
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_tools.audit.conditions import audit_conditions
 from tlcomm_tools.audit.links import WindowFinding, judge_windows, team_intervals
+from tlcomm_tools.audit.meetings import audit_meetings
 from tlcomm_tools.audit.strategies import StrategyFinding, audit_strategies
 from tlcomm_tools.audit.tasks import TaskFinding, audit_task
 from tlcomm_tools.audit.tracks import Track, build_tracks
@@ -107,6 +108,7 @@ def audit_run(scenario: Scenario, run: RecordedRun) -> Audit:
         *(line for own in tasks for line in own.violations),
         *(line for own in agents for line in _breaches(scenario, own, run, track_of.get(own))),
         *strategies.violations,
+        *audit_meetings(scenario, run.records.strategies),
     ]
     return Audit(
         scenario=scenario.name,

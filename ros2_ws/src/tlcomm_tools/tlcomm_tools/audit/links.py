@@ -3,6 +3,7 @@
 ``Interval``         a stretch of time
 ``link_intervals``   when two agents were in range of each other, and in sight if need be
 ``team_intervals``   when the graph of all agents was connected
+``reaches_all``      whether a graph is connected
 ``WindowFinding``    one window's outcome
 ``judge_windows``    every window's outcome
 """
@@ -17,7 +18,14 @@ from numpy.typing import NDArray
 from tlcomm_tools.audit.sight import Box, Ways, corner_passages_s, hidden
 from tlcomm_tools.audit.tracks import Track
 
-__all__ = ["Interval", "WindowFinding", "judge_windows", "link_intervals", "team_intervals"]
+__all__ = [
+    "Interval",
+    "WindowFinding",
+    "judge_windows",
+    "link_intervals",
+    "reaches_all",
+    "team_intervals",
+]
 
 # Rounding of positions and times, far below anything physical.
 _RANGE_SLACK_M = 1e-9
@@ -106,7 +114,7 @@ def _connected(changes: Sequence[tuple[float, bool, int, int]], agents: int) -> 
         mask = (1 << j), (1 << i)
         for agent, bit in zip((i, j), mask, strict=True):
             neighbours[agent] = neighbours[agent] | bit if appears else neighbours[agent] & ~bit
-        connected = _reaches_all(neighbours)
+        connected = reaches_all(neighbours)
         if connected and since_s is None:
             since_s = time_s
         elif not connected and since_s is not None:
@@ -115,7 +123,8 @@ def _connected(changes: Sequence[tuple[float, bool, int, int]], agents: int) -> 
     return intervals
 
 
-def _reaches_all(neighbours: Sequence[int]) -> bool:
+def reaches_all(neighbours: Sequence[int]) -> bool:
+    """Return whether each node, given by a bit mask of its neighbours, reaches every other."""
     reached = frontier = 1
     while frontier:
         agent = frontier.bit_length() - 1

@@ -11,6 +11,7 @@ from tlcomm_core.errors import InfeasibleRoundError, InputError
 from tlcomm_core.game.algorithm import solve
 from tlcomm_core.game.document import round_document, solved_document
 from tlcomm_core.game.problem import RoundProblem
+from tlcomm_core.game.rules import Rules
 from tlcomm_core.game.solver import Solved, Solver, solve_with
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.site import Site
@@ -107,11 +108,17 @@ def _format_round(problem: RoundProblem, solver: Solver, solved: Solved) -> str:
     header = ("agent", "z in S⁰", "h", "z", "h", "arrives/s", "detour/s")
     return (
         f"round {problem.round}, t_c in [{opens_s:g} s, {closes_s:g} s)\n"
-        f"  {len(problem.locations_m)} locations, range {problem.range_m:g} m\n"
+        f"  {len(problem.locations_m)} locations, range {problem.range_m:g} m"
+        f"{_format_rules(problem.rules)}\n"
         f"  Φ(S⁰) = {solved.initial_potential_s:.3f} s, "
         f"{_format_outcome(problem, solver, solved)}\n"
         f"\n{format_table(header, rows)}"
     )
+
+
+def _format_rules(rules: Rules) -> str:
+    apart = f", places at least {rules.separation_m:g} m apart" if rules.separation_m else ""
+    return apart + (", connected without any one agent" if rules.resilience else "")
 
 
 def _format_outcome(problem: RoundProblem, solver: Solver, solved: Solved) -> str:
