@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from support.gate import gate
 from tlcomm_core.agent.channel import LOST
 from tlcomm_core.game.solver import DEFAULT
 from tlcomm_core.mission import Mission
@@ -30,7 +31,7 @@ SHARED_MEMORY = "/dev/shm/fastrtps"  # noqa: S108 (what Fast DDS leaves behind)
 def options_of(
     out: Path, rounds: int, pace: Pace = LOCKSTEP, scenario: Scenario = SCENARIO
 ) -> RunOptions:
-    """Return a run of the corridor."""
+    """Return a run of the corridor, or of another scenario."""
     return RunOptions(
         scenario=scenario,
         method="team",
@@ -92,16 +93,22 @@ def odometry_key(odometry: Odometry) -> tuple[int, str]:
     return odometry.stamp_ns, odometry.agent
 
 
-def test_lock_step_run_equals_the_simulation(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("scenario", "rounds"), [(SCENARIO, 2), (gate(), 5)], ids=["corridor", "gate"]
+)
+def test_lock_step_run_equals_the_simulation(
+    tmp_path: Path, scenario: Scenario, rounds: int
+) -> None:
     """Over ROS the same decisions fall and the same poses are recorded, to the bit; all is well."""
     segments: list[str] = []
     report = run_mission(
-        options_of(tmp_path / "run", 2), lambda *_: segments.extend(shared_segments(tmp_path))
+        options_of(tmp_path / "run", rounds, scenario=scenario),
+        lambda *_: segments.extend(shared_segments(tmp_path)),
     )
     assert report.status is Status.FINE, report
     assert report.result["verdict"] == "ok"
     recorded = read_run(report.folder.bag).records
-    expected = simulate(Mission(Site.from_scenario(SCENARIO), 0, 2, None)).records
+    expected = simulate(Mission(Site.from_scenario(scenario), 0, rounds, None)).records
     assert list(event_log(recorded)) == list(event_log(expected))
     assert sorted(recorded.odometry, key=odometry_key) == sorted(
         expected.odometry, key=odometry_key

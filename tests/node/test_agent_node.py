@@ -6,10 +6,12 @@ from typing import Any
 
 import pytest
 from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import OccupancyGrid
 from nav_msgs.msg import Odometry as OdometryMessage
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Header
 
 from support.spinning import SpunNodes
@@ -17,10 +19,11 @@ from tlcomm_agent.node import AgentNode, main
 from tlcomm_core.errors import InputError
 from tlcomm_core.geometry import Pose
 from tlcomm_core.scenario.loader import load_scenario
-from tlcomm_core.world.observation import Connectivity, Odometry
+from tlcomm_core.scenario.site import grid_of
+from tlcomm_core.world.observation import Connectivity, Occupancy, Odometry
 from tlcomm_msgs import msg
 from tlcomm_sim.outputs import Tick
-from tlcomm_sim.wire import encode_connectivity, encode_odometry, encode_tick
+from tlcomm_sim.wire import encode_connectivity, encode_occupancy, encode_odometry, encode_tick
 
 CORRIDOR = Path(__file__).parents[2] / "scenarios" / "corridor.yaml"
 SCENARIO = load_scenario(CORRIDOR)
@@ -46,6 +49,8 @@ class Surroundings(SpunNodes):
         self.tick_pub = create(msg.Tick, f"/{OWN}/tick", 10)
         self.odometry_pub = create(OdometryMessage, f"/{OWN}/odom", 10)
         self.connectivity_pub = create(msg.Connectivity, "/connectivity", 10)
+        held = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self.map_pub = create(OccupancyGrid, "/map", held)
         self.response_pub = create(msg.BestResponse, f"/{PEER}/best_response", 10)
         self.answers: list[Any] = []
         self.events: list[Any] = []
@@ -54,7 +59,8 @@ class Surroundings(SpunNodes):
         subscribe(msg.TaskEvent, f"/{OWN}/task_event", self.events.append, 10)
         subscribe(msg.PlanOffer, f"/{OWN}/plan_offer", self.offers.append, 10)
         subscribe(TwistStamped, f"/{OWN}/cmd_vel", lambda _: None, 10)
-        own = (self.tick_pub, self.odometry_pub, self.connectivity_pub, self.response_pub)
+        own = (self.tick_pub, self.odometry_pub, self.connectivity_pub, self.map_pub)
+        own += (self.response_pub,)
         self.until(lambda: all(publisher.get_subscription_count() for publisher in own))
         self.until(lambda: bool(self.answers))
 
@@ -62,11 +68,13 @@ class Surroundings(SpunNodes):
         """Tell whether a tick has been answered."""
         return any(answer.sequence == sequence for answer in self.answers)
 
-    def tick(self, sequence: int, counts: tuple[int, int, int], *, stop: bool = False) -> None:
+    def tick(
+        self, sequence: int, counts: tuple[int, int, int], *, maps: int = 0, stop: bool = False
+    ) -> None:
         """Tick the agent after a hop; counts: odometry, connectivity, the peer's messages."""
         odometry, connectivity, team = counts
         agent_counts = tuple(team if name == PEER else 0 for name in NAMES)
-        tick = Tick(sequence, 10_000_000, odometry, connectivity, 0, agent_counts, stop)
+        tick = Tick(sequence, 10_000_000, odometry, connectivity, 0, maps, agent_counts, stop)
         self.tick_pub.publish(encode_tick(tick))
 
     def show(self) -> None:
@@ -78,6 +86,10 @@ class Surroundings(SpunNodes):
         """Show the agent that it rests at its start."""
         start = Pose(*SCENARIO.agents[OWN].start).as_transmitted()
         self.odometry_pub.publish(encode_odometry(Odometry(0, OWN, start, 0.0, 0.0)))
+
+    def show_map(self) -> None:
+        """Show the agent the scenario's map."""
+        self.map_pub.publish(encode_occupancy(Occupancy(0, grid_of(SCENARIO.workspace))))
 
     def show_connectivity(
         self, edges: tuple[tuple[int, int], ...] = ((0, 1), (0, 2), (1, 2))
@@ -110,15 +122,16 @@ def free(context: Context) -> Iterator[Surroundings]:
     own.close()
 
 
-@pytest.mark.parametrize("last", ["odometry", "connectivity", "message"])
+@pytest.mark.parametrize("last", ["odometry", "connectivity", "map", "message"])
 def test_tick_waits_for_all_that_it_counts(surroundings: Surroundings, last: str) -> None:
     """A tick isn't answered before everything has come that it counts; then at once, and once."""
     show = {
         "odometry": surroundings.show_odometry,
         "connectivity": surroundings.show_connectivity,
+        "map": surroundings.show_map,
         "message": lambda: surroundings.response_pub.publish(response()),
     }
-    surroundings.tick(1, (1, 1, 1))
+    surroundings.tick(1, (1, 1, 1), maps=1)
     for name, show_it in show.items():
         if name != last:
             show_it()
@@ -182,16 +195,18 @@ def test_malformed_messages_are_counted_and_ignored(
 
 
 def test_malformed_surroundings_are_counted_and_ignored(surroundings: Surroundings) -> None:
-    """An odometry or connectivity that can't be used is noted, and harms nobody."""
+    """An odometry, connectivity or map that can't be used is noted, and harms nobody."""
     surroundings.connectivity_pub.publish(msg.Connectivity(header=Header(), agents=["x"]))
     odometry = OdometryMessage()
     odometry.pose.pose.position.x = float("inf")
     surroundings.odometry_pub.publish(odometry)
+    surroundings.map_pub.publish(OccupancyGrid())
     surroundings.tick_pub.publish(msg.Tick(sequence=1))
-    surroundings.until(lambda: sum(surroundings.agent.ignored.values()) == 3)
+    surroundings.until(lambda: sum(surroundings.agent.ignored.values()) == 4)
     assert {reason.split(":")[0] for reason in surroundings.agent.ignored} == {
         "odom",
         "connectivity",
+        "map",
         "tick",
     }
 

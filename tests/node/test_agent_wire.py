@@ -55,6 +55,7 @@ OFFERS = st.builds(
     FLOATS,
     st.lists(STOPS, max_size=4).map(tuple),
     NAME_TUPLES,
+    st.integers(0, 2**63 - 1),
 )
 MESSAGES = st.one_of(
     st.builds(PlanOffer, NAMES, UINT32, NAME_TUPLES, st.lists(OFFERS, max_size=3).map(tuple)),

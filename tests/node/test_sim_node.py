@@ -5,11 +5,13 @@ from pathlib import Path
 
 import pytest
 from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import OccupancyGrid
 from nav_msgs.msg import Odometry as OdometryMessage
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
 
 from support.spinning import SpunNodes
@@ -50,6 +52,8 @@ class Team(SpunNodes):
         self.odometry: dict[str, list[OdometryMessage]] = {name: [] for name in NAMES}
         self.connectivity: list[msg.Connectivity] = []
         self.clocks: list[Clock] = []
+        self.maps: list[OccupancyGrid] = []
+        held = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.commands: dict[str, list[Drive]] = {name: [] for name in NAMES}
         self.silent: set[str] = set()
         self.commanded = dict.fromkeys(NAMES, 0)
@@ -59,6 +63,7 @@ class Team(SpunNodes):
         # Every agent has its own; the sim counts them.
         for _ in NAMES:
             subscribe(msg.Connectivity, "/connectivity", self.connectivity.append, 100)
+            subscribe(OccupancyGrid, "/map", self.maps.append, held)
         subscribe(Clock, "/clock", self.clocks.append, 100)
         # The sim waits for one publisher of answers per agent.
         self.extra = [self.node.create_publisher(msg.TickReply, "/tick_reply", 1) for _ in NAMES]
@@ -133,6 +138,9 @@ def test_lock_step_from_begin_to_end(create: Callable[..., Team]) -> None:
     turned = team.odometry[NAMES[0]][1]
     assert (turned.header.stamp.sec, turned.twist.twist.angular.z) == (0, 1.0)
     team.until(lambda: len(team.clocks) == 16)
+    # One map, seen by each.
+    assert [message.header.stamp.sec for message in team.maps] == [0] * len(NAMES)
+    assert all(tick.map_count == 1 for tick in first.values())
     assert team.progress[-1] == (1_500_000_000, 0)
 
 

@@ -65,6 +65,7 @@ def test_clock(time_ns: int) -> None:
         COUNTS,
         COUNTS,
         COUNTS,
+        COUNTS,
         st.lists(COUNTS, max_size=5).map(tuple),
         stop=st.booleans(),
     )

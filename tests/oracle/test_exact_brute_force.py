@@ -9,7 +9,7 @@ import pytest
 from tlcomm_core.errors import InfeasibleRoundError
 from tlcomm_core.game.algorithm import solve
 from tlcomm_core.game.best_response import Scope, best_response
-from tlcomm_core.game.exact import solve_exactly
+from tlcomm_core.game.exact import Share, solve_exactly
 from tlcomm_core.game.links import Links
 from tlcomm_core.game.placement import cheapest_placement
 from tlcomm_core.game.potential import potential
@@ -90,6 +90,22 @@ def test_it_starts_anywhere_and_stops_anytime(seed: int) -> None:
         )
         assert partial.bound_s - 1e-6 <= optimum.potential_s <= partial.potential_s + 1e-6
         assert partial.potential_s <= solution.potentials_s[-1]
+
+
+@pytest.mark.parametrize("tolerance", [0.0, 0.1, 0.5])
+@pytest.mark.parametrize("count", [1, 3, 8])
+@pytest.mark.parametrize("seed", range(6))
+def test_shares_make_up_the_whole(seed: int, count: int, tolerance: float) -> None:
+    """The best of all shares is as near to the optimum as asked for, and their bounds prove it."""
+    problem = feasible_problem((5, 4, 5, 4), seed)
+    start = solve(problem).initial
+    optimum_s = solve_exactly(problem, start).potential_s
+    found = [
+        solve_exactly(problem, start, Share(index, count), tolerance) for index in range(count)
+    ]
+    best_s, bound_s = min(own.potential_s for own in found), min(own.bound_s for own in found)
+    assert bound_s - 1e-6 <= optimum_s <= best_s + 1e-6
+    assert bound_s >= (1.0 - tolerance) * best_s - 1e-6
 
 
 @pytest.mark.parametrize("seed", range(30))

@@ -6,6 +6,7 @@ import pytest
 
 from support.fake_network import FakeNetwork
 from support.meetings import Meeting, plant_meeting, reference
+from tlcomm_core.agent.charts import Charts
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.workspace.atlas import Atlas
@@ -25,7 +26,7 @@ def meeting_round_the_wall(seed: int, clearance_m: float | None) -> Meeting:
         replace(offer, x_m=x_m, y_m=y_m)
         for offer, (x_m, y_m) in zip(meeting.offers, PLACES_M, strict=True)
     )
-    return Meeting(offers, meeting.round, team, MeetingRounds(Atlas(GRID), team, 0.0), 1.2)
+    return Meeting(offers, meeting.round, team, MeetingRounds(Charts(Atlas(GRID)), team, 0.0), 1.2)
 
 
 def run(meeting: Meeting) -> FakeNetwork:

@@ -32,6 +32,7 @@ from tlcomm_core.scenario.model import Faults
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.workspace.atlas import Atlas
+from tlcomm_core.workspace.grid import Box, Grid
 from tlcomm_core.world.unicycle import integrate
 
 __all__ = [
@@ -136,6 +137,13 @@ class LoneAgent:
     def change_task(self, task: str) -> LocalPlan:
         """Give it another task now; return the plan."""
         return self.member.change_task(task, nanoseconds(self.now_s))
+
+    def show_map(self, *boxes: Box) -> None:
+        """Show it from now on a map with only these obstacles, and let it act."""
+        grid = self.brain.travel.grid
+        now_ns = nanoseconds(self.now_s)
+        self.member.see_map(now_ns, Grid(grid.size_m, grid.cell_m, boxes).free)
+        self._take(self.member.step(now_ns))
 
     def put(self, pose: Pose) -> None:
         """Displace the vehicle, and show it; its velocity stays."""

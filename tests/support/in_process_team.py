@@ -12,7 +12,7 @@ from tlcomm_core.protocol.messages import Message
 from tlcomm_core.records import RunRecords, StrategyRecord, TaskRecord
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.workspace.atlas import Atlas
-from tlcomm_core.world.observation import Connectivity, Odometry
+from tlcomm_core.world.observation import Connectivity, Occupancy, Odometry
 from tlcomm_sim.conductor import RECORDER, Conductor
 from tlcomm_sim.outputs import (
     Answer,
@@ -93,6 +93,10 @@ class InProcessTeam:
                 case Show(Connectivity() as connectivity):
                     self.seen["connectivity"] += 1
                     self._show_connectivity(connectivity)
+                case Show(Occupancy() as occupancy):
+                    self.seen["map"] += 1
+                    for member in self.members.values():
+                        member.see_map(occupancy.stamp_ns, occupancy.grid.free)
                 case TickAgent(agent, tick):
                     self._act(agent, tick)
                 case TickRecorder(tick):
@@ -119,6 +123,7 @@ class InProcessTeam:
         counts, member = self.counts[name], self.members[name]
         assert tick.odometry_count == counts.odometry
         assert tick.connectivity_count == self.seen["connectivity"]
+        assert tick.map_count == self.seen["map"]
         teams = [others.team for others in self.counts.values()]
         assert all(due <= sent for due, sent in zip(tick.agent_counts, teams, strict=True))
         if not tick.stop:
@@ -159,6 +164,7 @@ class InProcessTeam:
     def _record(self, tick: Tick) -> None:
         assert tick.odometry_count == self.seen["odometry"]
         assert tick.connectivity_count == self.seen["connectivity"]
+        assert tick.map_count == self.seen["map"]
         assert tick.clock_count == self.seen["clock"]
         if tick.stop:
             published = tuple(counts.published for counts in self.counts.values())

@@ -19,6 +19,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
+from tlcomm_core.agent.charts import Charts
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.errors import InfeasibleRoundError
 from tlcomm_core.game.initial import initial_profile
@@ -208,7 +209,7 @@ def plant_meeting(count: int, seed: int) -> Meeting:
             [tuple(place) for place in row[:count].tolist()], _arrivals_s(count, 60.0, 10.0, rng)
         )
     )
-    return Meeting(offers, 2, team, MeetingRounds(Atlas(travel.grid), team, 0.0), 0.6)
+    return Meeting(offers, 2, team, MeetingRounds(Charts(Atlas(travel.grid)), team, 0.0), 0.6)
 
 
 def _random_stops(travel: TravelTimes, rng: np.random.Generator) -> tuple[PlannedStop, ...]:

@@ -15,6 +15,8 @@ PILLARS: tuple[Box, ...] = tuple(
     (x_m, y_m, x_m + 0.5, y_m + 0.5) for x_m in (1.0, 2.5, 4.0) for y_m in (1.0, 2.5, 4.0)
 )
 SIZE_M = 6.0
+_GRID = Grid((SIZE_M, SIZE_M), 0.5, BOXES)
+_PILLARED = Grid((SIZE_M, SIZE_M), 0.5, PILLARS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,13 +31,12 @@ class Command:
 
 def random_world(seed: int, count: int, noise: Noise | None = None) -> World:
     """Return a crowded world of 6 m × 6 m, R = 1.5 m, with two obstacles."""
-    return _random_world(seed, count, Grid((SIZE_M, SIZE_M), 0.5, BOXES), 1.5, noise or Noise())
+    return _random_world(seed, count, _GRID, 1.5, noise or Noise())
 
 
 def random_pillars(seed: int, count: int) -> World:
     """Return a world of 6 m × 6 m full of pillars that hide agents from each other, R = 3 m."""
-    grid = Grid((SIZE_M, SIZE_M), 0.5, PILLARS)
-    return _random_world(seed, count, grid, 3.0, Noise(), line_of_sight=True)
+    return _random_world(seed, count, _PILLARED, 3.0, Noise(), line_of_sight=True)
 
 
 def _random_world(

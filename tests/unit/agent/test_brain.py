@@ -12,7 +12,7 @@ from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.messages import PlanOffer
 from tlcomm_core.protocol.negotiation import Phase
 
-STARTED, FINISHED, REACHED, BEGUN, ENDED, SATISFIED, AGREED, FAULT, VISITED, _ = TaskEventKind
+STARTED, FINISHED, REACHED, BEGUN, ENDED, SATISFIED, AGREED, FAULT, VISITED, *_ = TaskEventKind
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ from support.hall import DURATION_S, PERIOD_S, of_kind, under_way
 from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.geometry import Pose
 
-_, FINISHED, REACHED, BEGUN, _, _, _, FAULT, VISITED, _ = TaskEventKind
+_, FINISHED, REACHED, BEGUN, _, _, _, FAULT, VISITED, *_ = TaskEventKind
 
 
 def test_displaced_it_goes_on_from_where_it_is() -> None:

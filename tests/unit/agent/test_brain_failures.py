@@ -7,7 +7,7 @@ from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.protocol.messages import PlanOffer
 from tlcomm_core.scenario.model import Faults
 
-STARTED, FINISHED, REACHED, _, _, _, _, FAULT, VISITED, _ = TaskEventKind
+STARTED, FINISHED, REACHED, _, _, _, _, FAULT, VISITED, *_ = TaskEventKind
 
 
 @pytest.fixture(scope="module", params=[0.3, 1.0])

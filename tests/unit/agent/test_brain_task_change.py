@@ -7,7 +7,7 @@ from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.errors import InputError, PlanningError
 from tlcomm_core.geometry import wrap_angle
 
-_, FINISHED, REACHED, BEGUN, _, SATISFIED, _, _, VISITED, CHANGED = TaskEventKind
+_, FINISHED, REACHED, BEGUN, _, SATISFIED, _, _, VISITED, CHANGED, *_ = TaskEventKind
 
 
 OTHER_TASK = "G F (b & pick)"

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from support.hall import hall, make_member
+from tlcomm_core.agent.charts import Charts
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.game.algorithm import solve
 from tlcomm_core.game.exact import solve_exactly
@@ -14,14 +15,17 @@ from tlcomm_core.game.rules import Rules
 from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.workspace.atlas import Atlas
+from tlcomm_core.workspace.grid import Grid
 
 TEAM = Team(frozenset({"one", "two"}), 0.96, 30.0, 3.0)
 GRID = hall(2).grid
 # A corner of the hall, as a region that may be avoided.
 CORNER_DISC = (6.0, 2.0, 0.8)
 CORNER = GRID.touched_by(*CORNER_DISC)
+# Region a is shut off.
+SHUT = Grid((6.0, 2.0), 0.5, [(1.0, 0.0, 1.5, 2.0)])
 ATLAS = Atlas(GRID, {"corner": CORNER_DISC})
-ROUNDS = MeetingRounds(ATLAS, TEAM, 0.0)
+ROUNDS = MeetingRounds(Charts(ATLAS), TEAM, 0.0)
 
 
 @pytest.fixture(scope="module")
@@ -45,7 +49,7 @@ def test_a_problem_has_the_window_and_the_planned_range(offer: MemberOffer) -> N
 def test_the_teams_rules_and_margin_hold(offer: MemberOffer) -> None:
     """They are the problem's, and nobody arrives in the margin."""
     strict = replace(TEAM, rules=Rules(0.5, 1), margin_s=12.0)
-    problem = MeetingRounds(ATLAS, strict, 0.0).problem(1, 3.0, [offer])
+    problem = MeetingRounds(Charts(ATLAS), strict, 0.0).problem(1, 3.0, [offer])
     (free,) = ROUNDS.problem(1, 3.0, [offer]).candidates
     (own,) = problem.candidates
     assert problem.rules == Rules(0.5, 1)
@@ -81,7 +85,7 @@ def test_the_team_meets_where_the_slow_member_is(slow: str) -> None:
 
 def test_all_members_are_reckoned_with_the_allowance(offer: MemberOffer) -> None:
     """In free running arrivals are later than in lock step."""
-    allowing = MeetingRounds(ATLAS, TEAM, 0.06)
+    allowing = MeetingRounds(Charts(ATLAS), TEAM, 0.06)
     (exact,) = ROUNDS.problem(1, 3.0, [offer]).candidates
     (later,) = allowing.problem(1, 3.0, [offer]).candidates
     assert later.arrival_s[0].min() >= exact.arrival_s[0].min()
@@ -112,3 +116,34 @@ def test_an_offer_that_contradicts_what_it_avoids_is_unsound(offer: MemberOffer)
     inside = replace(offer, x_m=x_m, y_m=y_m)
     assert ROUNDS.is_sound(inside)
     assert not ROUNDS.is_sound(replace(inside, avoided=("corner",)))
+
+
+def shut_charts(*maps_ns: int) -> Charts:
+    """Return charts that know the hall, shut off beside where the offers are, from some times."""
+    charts = Charts(ATLAS)
+    for map_ns in maps_ns:
+        charts.take(map_ns, SHUT.free)
+    return charts
+
+
+def test_a_round_is_planned_on_the_oldest_map_that_was_offered_with(offer: MemberOffer) -> None:
+    """Whatever later maps one knows."""
+    with_new = replace(offer, agent="two", map_ns=5)
+    old = ROUNDS.problem(1, 3.0, [offer, replace(offer, agent="two")])
+    mixed = MeetingRounds(shut_charts(5, 9), TEAM, 0.0).problem(1, 3.0, [offer, with_new])
+    new = MeetingRounds(shut_charts(5), TEAM, 0.0).problem(
+        1, 3.0, [replace(offer, map_ns=5), with_new]
+    )
+    assert len(mixed.locations_m) == len(GRID)
+    assert len(new.locations_m) == len(SHUT)
+    for known, expected in zip(mixed.candidates, old.candidates, strict=True):
+        np.testing.assert_array_equal(known.arrival_s, expected.arrival_s)
+        np.testing.assert_array_equal(known.extra_s, expected.extra_s)
+
+
+def test_an_offer_is_sound_on_the_map_that_it_was_made_with(offer: MemberOffer) -> None:
+    """So one from behind what has closed is sound with the older map only."""
+    rounds = MeetingRounds(shut_charts(5), TEAM, 0.0)
+    assert rounds.is_sound(offer)
+    assert not rounds.is_sound(replace(offer, map_ns=5))
+    assert not rounds.is_sound(replace(offer, map_ns=4))

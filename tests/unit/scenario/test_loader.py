@@ -10,6 +10,7 @@ from support.good_scenario import GOOD
 from tlcomm_core.errors import ScenarioError
 from tlcomm_core.scenario.loader import dumps, load_scenario, loads, verify
 
+_CHANGE = "{at_s: 5, obstacles_m: []}"
 SCENARIOS = Path(__file__).parents[3] / "scenarios"
 
 
@@ -211,6 +212,18 @@ BAD = [
      "agents.two.soft.weight_s: found -1; expected greater than or equal to 0"),
     ("    motion: {linear", "    soft: {task: G !a, weight_s: 1e6}\n    motion: {linear", 21,
      "agents.two.soft.weight_s: found 1000000.0"),
+    ("  cell_m: 0.5", "  cell_m: 0.5\n  changes: [{at_s: 0, obstacles_m: []}]", 5,
+     "workspace.changes[0].at_s: found 0; expected greater than 0"),
+    ("  cell_m: 0.5", "  cell_m: 0.5\n  changes: [{at_s: 5}]", 5,
+     "workspace.changes[0].obstacles_m: missing"),
+    ("  cell_m: 0.5", "  cell_m: 0.5\n  changes: [{at_s: 5, obstacle_m: []}]", 5,
+     "workspace.changes[0].obstacle_m: unknown field; did you mean 'obstacles_m'?"),
+    ("  cell_m: 0.5", "  cell_m: 0.5\n  changes: [{at_s: 5, obstacles_m: [[1, 1, 1, 2]]}]", 5,
+     "workspace.changes[0].obstacles_m[0]: [1.0, 1.0, 1.0, 2.0] is no box"),
+    ("  cell_m: 0.5", f"  cell_m: 0.5\n  changes: [{_CHANGE}, {_CHANGE}]", 5,
+     "workspace.changes[1].at_s: 5.0 isn't later than the change before (5.0)"),
+    ("  cell_m: 0.5", "  cell_m: 0.5\n  changes: [{at_s: 5, obstacles_m: [[0, 0, 2, 2]]}]", 5,
+     "workspace.changes[0].obstacles_m: from 5.0 s on no free cell's centre lies within region"),
     ("  cell_m: 0.5", "  cell_m: 0.5\n  map: x.yaml", 5, "workspace.map: given beside 'size_m'"),
 ]  # fmt: skip
 
@@ -291,6 +304,24 @@ def test_a_map_becomes_size_and_obstacles(map_scenario: Path) -> None:
     scenario = load_scenario(map_scenario)
     assert scenario.workspace.size_m == (4.0, 4.0)
     assert scenario.workspace.obstacles_m == ((1.0, 1.0, 2.0, 2.0),)
+    assert loads(dumps(scenario)) == scenario
+
+
+def test_changes_leave_what_a_map_shows(map_scenario: Path) -> None:
+    """To the obstacles of each change, those of the map are added."""
+    text = WITH_MAP.replace(
+        "  cell_m: 0.5\n",
+        """  cell_m: 0.5
+  changes:
+    - {at_s: 5, obstacles_m: [[3, 0, 3.2, 4]]}
+    - {at_s: 9, obstacles_m: []}
+""",
+    )
+    map_scenario.write_text(text)
+    scenario = load_scenario(map_scenario)
+    image = (1.0, 1.0, 2.0, 2.0)
+    changes = [(change.at_s, change.obstacles_m) for change in scenario.workspace.changes]
+    assert changes == [(5.0, ((3.0, 0.0, 3.2, 4.0), image)), (9.0, (image,))]
     assert loads(dumps(scenario)) == scenario
 
 

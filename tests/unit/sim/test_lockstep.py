@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from support.gate import CLOSED_S, OPENED_S, SHUT_S, gate
 from support.in_process_team import InProcessTeam
 from tlcomm_core.mission import Mission, create_world
 from tlcomm_core.records import event_log
@@ -13,11 +14,18 @@ from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.world.lockstep import LockStep
+from tlcomm_core.world.observation import Occupancy
 from tlcomm_sim.conductor import RECORDER
 from tlcomm_sim.lockstep import LockStepConductor
 from tlcomm_sim.outputs import Answer, Leave, Show, ShowClock, TickAgent, TickRecorder
 
 CORRIDOR = Path(__file__).parents[3] / "scenarios" / "corridor.yaml"
+
+
+@pytest.fixture(scope="module")
+def gate_site() -> Site:
+    """Return the hall whose doors close and open."""
+    return Site.from_scenario(gate())
 
 
 @pytest.fixture(scope="module")
@@ -45,8 +53,24 @@ def test_order_of_arrival_changes_nothing(site: Site, seed: int) -> None:
     team.run()
     expected = simulate(Mission(site, 0, 1, None)).records
     assert list(event_log(team.records)) == list(event_log(expected))
-    shown = [output.observation for output in team.outputs if isinstance(output, Show)]
+    shown = [
+        output.observation
+        for output in team.outputs
+        if isinstance(output, Show) and not isinstance(output.observation, Occupancy)
+    ]
     assert sorted(map(repr, shown)) == sorted(map(repr, expected.odometry + expected.connectivity))
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_changes_of_the_map_are_those_of_the_other_harness(gate_site: Site, seed: int) -> None:
+    """Each is shown once and counted, and the run is the same."""
+    team = team_of(gate_site, rounds=5, seed=seed)
+    team.run()
+    expected = simulate(Mission(gate_site, 0, 5, None)).records
+    assert list(event_log(team.records)) == list(event_log(expected))
+    shown = [output.observation for output in team.outputs if isinstance(output, Show)]
+    times_ns = [seen.stamp_ns for seen in shown if isinstance(seen, Occupancy)]
+    assert times_ns == [nanoseconds(time_s) for time_s in (0.0, CLOSED_S, SHUT_S, OPENED_S)]
 
 
 def test_end(site: Site) -> None:

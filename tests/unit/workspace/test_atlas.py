@@ -1,6 +1,10 @@
 """Travel times by motion and avoided regions."""
 
+import gc
+import weakref
+
 import numpy as np
+import pytest
 
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.grid import Grid
@@ -31,3 +35,30 @@ def test_only_regions_can_be_avoided() -> None:
     """Whether a peer's names are regions can be asked."""
     assert ATLAS.knows(frozenset({"gate", "end"}))
     assert not ATLAS.knows(frozenset({"gate", "gaet"}))
+
+
+@pytest.mark.parametrize("cell_m", [0.05, 0.1, 0.3, 0.5])
+def test_another_map_has_the_cells_that_are_given(cell_m: float) -> None:
+    """On a grid of the same shape, closed by boxes, so that what isn't free hides as well."""
+    rng = np.random.default_rng(round(100 * cell_m))
+    grid = Grid((12 * cell_m, 9 * cell_m), cell_m, origin_m=(-1.7, 2.3))
+    atlas = Atlas(grid, {"spot": (-1.6, 2.4, 0.05)})
+    free = rng.random(grid.shape) < 0.7
+    other = atlas.on(free)
+    np.testing.assert_array_equal(other.grid.free, free)
+    assert (other.grid.origin_m, other.grid.cell_m) == (grid.origin_m, cell_m)
+    assert other.knows(frozenset({"spot"}))
+    assert atlas.on(free.copy()) is other
+    assert other.on(grid.free) is atlas
+    closed_m = grid.locations_m[~free.ravel()]
+    low_m, high_m = other.grid.boxes[:, None, :2], other.grid.boxes[:, None, 2:]
+    assert ((low_m < closed_m) & (closed_m < high_m)).all(axis=2).any(axis=0).all()
+
+
+def test_a_map_that_nobody_uses_is_forgotten() -> None:
+    """It takes memory, as long as an agent may plan a round on it and no longer."""
+    atlas = Atlas(Grid((2.0, 1.0), 0.5))
+    shut = np.arange(8).reshape(2, 4) < 6
+    other = weakref.ref(atlas.on(shut))
+    gc.collect()
+    assert other() is None

@@ -117,3 +117,51 @@ def test_avoiding_closes_moves_and_keeps_the_numbering() -> None:
     assert avoiding.components[0] == avoiding.components[8] != avoiding.components[4]
     assert list(avoiding.avoided) == ["middle"]
     assert (grid.avoiding({"a": np.array([0])}).avoiding({}).moves == grid.moves).all()
+
+
+def test_grids_of_the_same_cells_find_their_locations_in_each_other() -> None:
+    """What is closed in the other one has none there."""
+    grid = Grid((1.5, 1.0), 0.5, [(0.5, 0.0, 1.0, 0.5)])
+    other = Grid((1.5, 1.0), 0.5, [(1.0, 0.5, 1.5, 1.0)])
+    assert grid.numbers_in(other).tolist() == [0, 2, 3, 4, -1]
+    for number, there in enumerate(grid.numbers_in(other).tolist()):
+        if there >= 0:
+            assert other.locations_m[there].tolist() == grid.locations_m[number].tolist()
+
+
+def test_moves_lead_within_what_is_connected() -> None:
+    """Not out of a closed cell or from outside, nor to what a wall cuts off, nor to none."""
+    grid = Grid((2.5, 0.5), 0.5, [(1.0, 0.0, 1.5, 0.5)])
+    assert grid.leads(0.1, 0.1, 1)
+    assert not grid.leads(0.1, 0.1, 2)
+    assert not grid.leads(1.2, 0.1, 1)
+    assert not grid.leads(-1.0, 0.1, 1)
+    assert not grid.leads(0.1, 0.1, -1)
+
+
+@pytest.mark.parametrize(
+    ("points_m", "is_clear"),
+    [
+        ([(0.25, 0.25), (0.75, 0.25), (0.75, 1.75)], True),
+        ([(0.25, 1.25), (1.75, 1.25)], False),
+        # Past a corner of what is closed, and along its edge.
+        ([(0.75, 0.75), (1.25, 0.25)], True),
+        ([(0.75, 1.25), (1.25, 0.75)], False),
+        ([(1.0, 0.25), (1.0, 1.75)], False),
+        ([(0.75, 0.25), (0.75, 1.75)], True),
+        # From within what is closed, or nowhere.
+        ([(1.25, 1.25), (1.25, 0.25)], False),
+        ([(0.3, 0.3), (0.3, 0.3)], True),
+        ([(0.3, 0.3)], True),
+        # Other corners of a way count as well.
+        ([(0.25, 0.25), (1.75, 0.25), (1.75, 1.25), (0.25, 1.25)], False),
+    ],
+)
+def test_a_way_is_clear_if_it_touches_nothing_closed(
+    points_m: list[tuple[float, float]], is_clear: bool
+) -> None:
+    """As moves do, it cuts no corner."""
+    grid = Grid((2.0, 2.0), 0.5, [(1.0, 1.0, 1.5, 1.5)])
+    assert grid.is_clear(points_m) is is_clear
+    shifted = Grid((2.0, 2.0), 0.5, [(11.0, -4.0, 11.5, -3.5)], (10.0, -5.0))
+    assert shifted.is_clear([(x_m + 10.0, y_m - 5.0) for x_m, y_m in points_m]) is is_clear

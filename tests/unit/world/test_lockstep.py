@@ -14,6 +14,8 @@ from tlcomm_core.world.world import Body, Noise, World
 MS = 1_000_000
 SECOND = 1000 * MS
 LATENCY = 5 * MS
+# Later than most tests look.
+CHANGE = 8 * SECOND + 3 * MS
 NEVER = StopRule(meetings=None, until_ns=None)
 IDLE = Reply(next_need_ns=None, team_messages=0, command=None, meetings_ended=0)
 
@@ -24,7 +26,8 @@ def lockstep(*xs_m: float, stop: StopRule = NEVER) -> LockStep:
     bodies = [
         Body(name, Pose(x_m, 0.5, 0.0), 1.0, 1.5) for name, x_m in zip(names, xs_m, strict=True)
     ]
-    world = World(bodies, Grid((20.0, 1.0), 0.5), 1.0, Noise(), np.random.default_rng(0))
+    grid, rng = Grid((20.0, 1.0), 0.5), np.random.default_rng(0)
+    world = World(bodies, grid, 1.0, Noise(), rng, changes=[(CHANGE, grid)])
     return LockStep(world, names, LATENCY, stop)
 
 
@@ -57,11 +60,11 @@ def next_ticked(steps: LockStep) -> Step:
 
 
 def test_all_are_ticked_at_the_beginning() -> None:
-    """In the scenario's order, with odometry of each and the connectivity to see."""
+    """In the scenario's order, with the map, odometry of each and the connectivity to see."""
     step = lockstep(0.5, 1.0).next_step()
     assert step is not None
     assert (step.time_ns, step.ticked, step.arrived) == (0, ("a", "b"), (0, 0))
-    assert len(step.observations) == 3
+    assert len(step.observations) == 4
 
 
 def test_only_those_that_are_due_are_ticked() -> None:
@@ -187,3 +190,11 @@ def test_the_first_of_two_stops_counts() -> None:
     begun(steps, {})
     assert steps.next_step() is not None
     assert steps.next_step() is None
+
+
+def test_when_the_map_changes_all_are_ticked() -> None:
+    """Whether they need that time or not: it may close their ways."""
+    steps = lockstep(0.5, 1.0, 19.0)
+    begun(steps, {"b": reply(20 * SECOND)})
+    step = next_ticked(steps)
+    assert (step.time_ns, step.ticked) == (CHANGE, ("a", "b", "c"))

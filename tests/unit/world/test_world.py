@@ -10,7 +10,7 @@ import pytest
 from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.geometry import Pose
 from tlcomm_core.workspace.grid import Grid
-from tlcomm_core.world.observation import Connectivity, Observation, Odometry
+from tlcomm_core.world.observation import Connectivity, Observation, Occupancy, Odometry
 from tlcomm_core.world.unicycle import integrate
 from tlcomm_core.world.world import Body, Noise, World
 
@@ -43,16 +43,19 @@ def connectivity(seen: Sequence[Observation]) -> list[tuple[int, tuple[tuple[int
 
 
 def test_at_the_start_everything_is_told() -> None:
-    """At t = 0: each agent's odometry in order, then connectivity."""
+    """At t = 0: the map, each agent's odometry in order, then connectivity."""
     simulated = world((1.0, 1.0), (2.0, 1.0), (5.0, 1.0))
     assert simulated.next_change_ns() == 0
     assert simulated.neighbours("agent_0") == {"agent_1"}
-    assert simulated.advance_to(0) == (
+    occupancy, *others = simulated.advance_to(0)
+    assert isinstance(occupancy, Occupancy)
+    assert (occupancy.stamp_ns, occupancy.grid.shape) == (0, (20, 20))
+    assert others == [
         Odometry(0, "agent_0", Pose(1.0, 1.0, 0.0), 0.0, 0.0),
         Odometry(0, "agent_1", Pose(2.0, 1.0, 0.0), 0.0, 0.0),
         Odometry(0, "agent_2", Pose(5.0, 1.0, 0.0), 0.0, 0.0),
         Connectivity(0, ((0, 1),), connected=False, distances_m=(1.0,)),
-    )
+    ]
     assert simulated.advance_to(0) == ()
 
 
@@ -232,3 +235,91 @@ def test_agents_compute_the_same_pose_from_odometry() -> None:
         actual = simulated.odometry("agent_0").pose
         assert actual.distance_m(found.x_m, found.y_m) < 1e-9
         assert math.cos(found.yaw_rad - actual.yaw_rad) == pytest.approx(1.0, abs=1e-15)
+
+
+DOOR = (6.0, 0.0, 6.5, 10.0)
+CLOSES_NS = 2 * SECOND_NS + 7
+
+
+def with_door(x_m: float, *, opens: bool = False) -> World:
+    """Return a body that drives along x towards a door that closes, or opens."""
+    doors = [Grid((10.0, 10.0), 0.5, [DOOR]), Grid((10.0, 10.0), 0.5)]
+    first, then = doors if opens else doors[::-1]
+    body = Body("agent_0", Pose(x_m, 5.0, 0.0), 1.0, 1.5)
+    rng = np.random.default_rng(0)
+    simulated = World([body], first, 1.0, Noise(), rng, changes=[(CLOSES_NS, then)])
+    run(simulated, 0)
+    simulated.command("agent_0", 1.0, 0.0)
+    return simulated
+
+
+def test_the_map_is_shown_when_it_changes() -> None:
+    """At that very time, which is one of the world's changes."""
+    simulated = with_door(1.0)
+    shown = [one for one in run(simulated, 5 * SECOND_NS) if isinstance(one, Occupancy)]
+    assert [one.stamp_ns for one in shown] == [CLOSES_NS]
+    assert shown[0].grid.location_at(6.25, 5.0) is None
+
+
+def test_a_door_that_closes_stops_what_drives_towards_it() -> None:
+    """Where it is, from then on; before, it was driven through."""
+    simulated = with_door(3.0)
+    run(simulated, 6 * SECOND_NS)
+    assert simulated.odometry("agent_0").pose.x_m == pytest.approx(6.0, abs=1e-8)
+    assert simulated.collisions == {"agent_0": 1}
+    through = with_door(5.0)
+    run(through, 4 * SECOND_NS)
+    assert through.odometry("agent_0").pose.x_m == pytest.approx(9.0, abs=1e-8)
+    assert through.collisions == {"agent_0": 0}
+
+
+def test_a_door_that_opens_lets_through_what_drives_towards_it() -> None:
+    """What would have been the contact isn't any more."""
+    simulated = with_door(3.5, opens=True)
+    run(simulated, 6 * SECOND_NS)
+    assert simulated.odometry("agent_0").pose.x_m == pytest.approx(9.5, abs=1e-8)
+    stopped = with_door(5.0, opens=True)
+    run(stopped, 6 * SECOND_NS)
+    assert stopped.odometry("agent_0").pose.x_m == pytest.approx(6.0, abs=1e-8)
+
+
+def test_a_door_that_closes_on_a_body_lets_it_out_and_not_in_again() -> None:
+    """It drives on as before; once out and told to turn back, it is stopped at the door."""
+    simulated = with_door(4.25)
+    run(simulated, 3 * SECOND_NS)
+    assert simulated.odometry("agent_0").pose.x_m == pytest.approx(7.25, abs=1e-8)
+    assert simulated.collisions == {"agent_0": 0}
+    simulated.command("agent_0", -1.0, 0.0)
+    run(simulated, 6 * SECOND_NS)
+    assert simulated.odometry("agent_0").pose.x_m == pytest.approx(6.5, abs=1e-8)
+    assert simulated.collisions == {"agent_0": 1}
+
+
+def test_inside_a_closed_door_the_walls_of_before_still_count() -> None:
+    """What doesn't hold it is only what has come."""
+    wall = (6.2, 4.0, 6.4, 6.0)
+    grids = [Grid((10.0, 10.0), 0.5, [wall]), Grid((10.0, 10.0), 0.5, [DOOR, wall])]
+    body = Body("agent_0", Pose(6.1, 5.0, 0.0), 1.0, 1.5)
+    rng = np.random.default_rng(0)
+    simulated = World([body], grids[0], 1.0, Noise(), rng, changes=[(SECOND_NS, grids[1])])
+    run(simulated, 2 * SECOND_NS)
+    simulated.command("agent_0", 0.1, 0.0)
+    run(simulated, 5 * SECOND_NS)
+    assert simulated.odometry("agent_0").pose.x_m == pytest.approx(6.2, abs=1e-8)
+    assert simulated.collisions == {"agent_0": 1}
+
+
+@pytest.mark.parametrize("line_of_sight", [True, False])
+def test_a_door_hides_bodies_from_each_other_while_it_is_closed(*, line_of_sight: bool) -> None:
+    """If radios need sight, links go and come with it, at the very time."""
+    bodies = [Body(name, Pose(x_m, 5.0, 0.0), 1.0, 1.5) for name, x_m in (("a", 5.8), ("b", 6.7))]
+    shut, opened = Grid((10.0, 10.0), 0.5, [DOOR]), Grid((10.0, 10.0), 0.5)
+    changes = [(SECOND_NS + 3, shut), (2 * SECOND_NS + 5, opened)]
+    rng = np.random.default_rng(0)
+    simulated = World(
+        bodies, opened, 1.0, Noise(), rng, changes=changes, line_of_sight=line_of_sight
+    )
+    seen = connectivity(run(simulated, 3 * SECOND_NS))
+    lost = [time_ns for time_ns, edges in seen if not edges]
+    assert lost == ([SECOND_NS + 3, 2 * SECOND_NS + 3] if line_of_sight else [])
+    assert (2 * SECOND_NS + 5, ((0, 1),)) in seen or not line_of_sight

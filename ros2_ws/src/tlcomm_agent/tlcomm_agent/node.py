@@ -11,7 +11,7 @@ from collections.abc import Callable, Container, Sequence
 from typing import Any, Final
 
 import rclpy
-from nav_msgs.msg import Odometry
+from nav_msgs.msg import OccupancyGrid, Odometry
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import Clock
@@ -23,7 +23,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 
-from tlcomm_agent import tasking, wire
+from tlcomm_agent import tasking, wire, wire_map
 from tlcomm_agent.arrivals import Arrivals
 from tlcomm_agent.config import PARAMETERS, AgentConfig
 from tlcomm_agent.wire_fields import WireError
@@ -44,6 +44,7 @@ _COUNTED: Final = QoSProfile(depth=_DEPTH, reliability=ReliabilityPolicy.RELIABL
 # The protocol repeats what is lost, and needs no more than the last few of anybody's messages.
 _BY_RADIO: Final = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
 _HELD_STRATEGIES: Final = 10
+_HELD: Final = QoSProfile(depth=_HELD_STRATEGIES, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _READY_PERIOD_S: Final = 0.1
 _LEAVE_PERIOD_S: Final = 0.05
 _MOST_REASONS: Final = 100
@@ -100,16 +101,14 @@ class AgentNode(Node):
             InputError: a parameter or the scenario can't be used.
             PlanningError: the agent's task has no plan.
         """
+        no_service = Parameter("start_type_description_service", value=False)
         super().__init__(
             "agent",
             namespace=namespace,
             context=context,
             enable_rosout=False,
             start_parameter_services=False,
-            parameter_overrides=[
-                Parameter("start_type_description_service", value=False),
-                *parameters,
-            ],
+            parameter_overrides=[no_service, *parameters],
         )
         self.config: Final = AgentConfig.from_parameters(self.get_namespace(), self._declared)
         self.is_done = False
@@ -131,6 +130,7 @@ class AgentNode(Node):
         self._is_stopped = False
         self._neighbours: Container[str] = ()
         self._attended: Container[str] = self.config.others if self._is_lockstep else ()
+        self._grid: Final = site.grid
         self._create_publishers()
         self._create_listeners()
         self._create_occasions()
@@ -141,32 +141,29 @@ class AgentNode(Node):
 
     def _create_publishers(self) -> None:
         create = self.create_publisher
-        held = QoSProfile(
-            depth=_HELD_STRATEGIES,
-            reliability=ReliabilityPolicy.RELIABLE,
-            durability=DurabilityPolicy.TRANSIENT_LOCAL,
-        )
         self._answer_pub = create(msg.TickReply, "/tick_reply", _DEPTH)
         self._pubs = {
-            topic: create(kind, topic, held if topic == "team_strategy" else _DEPTH)
+            topic: create(kind, topic, _HELD if topic == "team_strategy" else _DEPTH)
             for topic, kind in wire.TYPES.items()
         }
 
     def _create_listeners(self) -> None:
         subscribe = self.create_subscription
         self._tick_sub = subscribe(msg.Tick, "tick", self._take_tick, _DEPTH)
-        take_links = self._taking("connectivity", self._see_connectivity)
         own = [
-            subscribe(Odometry, "odom", self._taking("odom", self._see_odometry), _DEPTH),
-            subscribe(msg.Connectivity, "/connectivity", take_links, _DEPTH),
-            self._tick_sub,
+            subscribe(kind, topic, self._taking(topic.removeprefix("/"), see), quality)
+            for kind, topic, see, quality in (
+                (Odometry, "odom", self._see_odometry, _DEPTH),
+                (msg.Connectivity, "/connectivity", self._see_connectivity, _DEPTH),
+                (OccupancyGrid, "/map", self._see_map, _HELD),
+            )
         ]
         team = [
-            self._subscribe_team(other, topic)
+            self._subscribe_team(other, topic, kind)
             for other in self.config.others
-            for topic in wire.TEAM_TYPES
+            for topic, kind in wire.TEAM_TYPES.items()
         ]
-        self._own_subscriptions = (*own, *team)
+        self._own_subscriptions = (*own, self._tick_sub, *team)
         self.create_service(srv.ChangeTask, "change_task", self._change_task)
 
     def _create_occasions(self) -> None:
@@ -176,9 +173,7 @@ class AgentNode(Node):
         if not self._is_lockstep:
             self.create_timer(CONTROL_PERIOD_S, self._step_freely)
 
-    def _subscribe_team(self, other: str, topic: str) -> Any:  # noqa: ANN401 (rclpy's are opaque)
-        kind = wire.TEAM_TYPES[topic]
-
+    def _subscribe_team(self, other: str, topic: str, kind: type) -> Any:  # noqa: ANN401 (opaque)
         def take(data: bytes) -> None:
             sent_ns = self._hear(other, kind, data)
             if self._is_lockstep:
@@ -214,6 +209,9 @@ class AgentNode(Node):
         self._neighbours = distances_m.keys()
         self._member.see_neighbours(stamp_ns, distances_m)
         self._attend()
+
+    def _see_map(self, message: OccupancyGrid) -> None:
+        self._member.see_map(*wire_map.decode_map(message, self._grid))
 
     def _change_task(self, request: Any, response: Any) -> Any:  # noqa: ANN401 (rclpy's are opaque)
         """Stand still while the plan for another task is made, which may take a second."""
@@ -290,6 +288,7 @@ class AgentNode(Node):
         return (
             self._taken["odom"] >= tick.odometry_count
             and self._taken["connectivity"] >= tick.connectivity_count
+            and self._taken["map"] >= tick.map_count
             and self._arrivals.are_complete(due, tick.time_ns)
         )
 

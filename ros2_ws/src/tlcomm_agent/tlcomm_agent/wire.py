@@ -329,6 +329,7 @@ def _encode_offer(offer: MemberOffer) -> _RosMessage:
         linear_speed=offer.linear_mps,
         angular_speed=offer.angular_radps,
         forbidden=list(offer.avoided),
+        map_stamp=offer.map_ns,
         task_index=[stop.task_index for stop in stops],
         stop_x=[stop.x_m for stop in stops],
         stop_y=[stop.y_m for stop in stops],
@@ -348,6 +349,7 @@ def _decode_offer(offer: _RosMessage) -> MemberOffer:
         angular_radps=finite(offer.angular_speed, "offers.angular_speed"),
         stops=_decode_stops(offer),
         avoided=names(offer.forbidden, "offers.forbidden"),
+        map_ns=offer.map_stamp,
     )
 
 

@@ -205,7 +205,8 @@ def _arrivals_s(records: RunRecords) -> dict[int, dict[str, float]]:
     arrivals: dict[int, dict[str, float]] = defaultdict(dict)
     for record in records.tasks:
         if record.event.kind is TaskEventKind.MEETING_REACHED:
-            arrivals[record.event.round].setdefault(record.agent, seconds(record.stamp_ns))
+            # The last: an agent that was cut off from its place may have waited elsewhere first.
+            arrivals[record.event.round][record.agent] = seconds(record.stamp_ns)
     return arrivals
 
 

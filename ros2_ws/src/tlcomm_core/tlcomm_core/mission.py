@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tlcomm_core.game.solver import DEFAULT, Solver
-from tlcomm_core.scenario.site import Site
+from tlcomm_core.scenario.site import Site, later_grids
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.world.lockstep import StopRule
 from tlcomm_core.world.world import Body, Noise, World
@@ -51,11 +51,14 @@ def create_world(site: Site, seed: int) -> World:
     for name in scenario.agents:
         drive = scenario.drive_of(name)
         bodies.append(Body(name, site.start_of(name), drive.linear_mps, drive.angular_radps))
+    workspace = scenario.workspace
+    times_ns = [nanoseconds(change.at_s) for change in workspace.changes]
     return World(
         bodies,
         site.grid,
         scenario.communication.range_m,
         Noise(scenario.noise.linear, scenario.noise.angular),
         np.random.default_rng(seed),
+        changes=tuple(zip(times_ns, later_grids(workspace), strict=True)),
         line_of_sight=scenario.radio.line_of_sight,
     )

@@ -27,7 +27,7 @@ from tlcomm_core.records import RunRecords, StrategyRecord, TaskRecord
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.world.lockstep import LockStep, Reply
-from tlcomm_core.world.observation import Connectivity, Observation, Odometry
+from tlcomm_core.world.observation import Connectivity, Observation, Occupancy, Odometry
 
 __all__ = ["Simulated", "simulate"]
 
@@ -120,6 +120,9 @@ class _Harness:
                 case Connectivity():
                     self.left.records.connectivity.append(observation)
                     self._show_connectivity(observation)
+                case Occupancy():
+                    for member in self._members.values():
+                        member.see_map(observation.stamp_ns, observation.grid.free)
 
     def act(self, name: str, now_ns: int) -> Reply:
         """Let a member act; return its reply."""

@@ -5,7 +5,7 @@
 
 from collections.abc import Sequence
 
-from tlcomm_core.world.observation import Connectivity, Odometry
+from tlcomm_core.world.observation import Connectivity, Occupancy, Odometry
 from tlcomm_sim.outputs import Output, Show, ShowClock, Tick
 
 __all__ = ["Ledger"]
@@ -20,11 +20,12 @@ class Ledger:
         self._by_agents = dict.fromkeys(agents, 0)
         self._connectivity = 0
         self._clock = 0
+        self._maps = 0
 
     @property
     def total(self) -> int:
         """Messages on recorded topics, by sim and agents."""
-        own = sum(self._odometry.values()) + self._connectivity + self._clock
+        own = sum(self._odometry.values()) + self._connectivity + self._clock + self._maps
         return own + sum(self._by_agents.values())
 
     def note(self, output: Output) -> None:
@@ -36,6 +37,8 @@ class Ledger:
                 self._odometry[agent] += 1
             case Show(Connectivity()):
                 self._connectivity += 1
+            case Show(Occupancy()):
+                self._maps += 1
             case _:
                 pass
 
@@ -59,6 +62,7 @@ class Ledger:
             odometry_count=self._odometry[agent],
             connectivity_count=self._connectivity,
             clock_count=self._clock,
+            map_count=self._maps,
             agent_counts=tuple(arrived),
             stop=stop,
         )
@@ -71,6 +75,7 @@ class Ledger:
             odometry_count=sum(self._odometry.values()),
             connectivity_count=self._connectivity,
             clock_count=self._clock,
+            map_count=self._maps,
             agent_counts=tuple(self._by_agents.values()),
             stop=stop,
         )

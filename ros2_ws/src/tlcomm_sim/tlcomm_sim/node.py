@@ -12,6 +12,7 @@ from typing import Any, Final, assert_never
 
 import rclpy
 from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import OccupancyGrid
 from nav_msgs.msg import Odometry as OdometryMessage
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.clock import Clock
@@ -20,11 +21,12 @@ from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock as ClockMessage
 
 from tlcomm_core.errors import InputError, TlcommError
 from tlcomm_core.units import nanoseconds, seconds
-from tlcomm_core.world.observation import Connectivity, Observation, Odometry
+from tlcomm_core.world.observation import Connectivity, Observation, Occupancy, Odometry
 from tlcomm_msgs import msg
 from tlcomm_sim import wire
 from tlcomm_sim.conductor import RECORDER
@@ -42,6 +44,8 @@ from tlcomm_sim.outputs import (
 __all__ = ["RunBrokenError", "SimNode", "main"]
 
 _DEPTH: Final = 1000
+# More than a scenario has: whoever comes late gets them all.
+_MAPS: Final = 200
 _READY_PERIOD_S: Final = 0.1
 _LONGEST_PERIOD_S: Final = 0.02
 _SHORTEST_PERIOD_S: Final = 0.002
@@ -121,6 +125,12 @@ class SimNode(Node):
         create = self.create_publisher
         self._clock_pub = create(ClockMessage, "/clock", _DEPTH)
         self._connectivity_pub = create(msg.Connectivity, "/connectivity", _DEPTH)
+        held = QoSProfile(
+            depth=_MAPS,
+            reliability=ReliabilityPolicy.RELIABLE,
+            durability=DurabilityPolicy.TRANSIENT_LOCAL,
+        )
+        self._map_pub = create(OccupancyGrid, "/map", held)
         self._odometry_pubs = {
             agent: create(OdometryMessage, f"/{agent}/odom", _DEPTH) for agent in self._agents
         }
@@ -169,6 +179,7 @@ class SimNode(Node):
         publishers = [
             (self._clock_pub, recorders),
             (self._connectivity_pub, count + recorders),
+            (self._map_pub, count + recorders),
             *((publisher, 1 + recorders) for publisher in self._odometry_pubs.values()),
             *((publisher, 1) for publisher in self._tick_pubs.values()),
             (self._recorder_pub, recorders),
@@ -232,6 +243,8 @@ class SimNode(Node):
                 range_m = self.config.mission.site.scenario.communication.range_m
                 message = wire.encode_connectivity(observation, range_m, self._agents)
                 self._connectivity_pub.publish(message)
+            case Occupancy():
+                self._map_pub.publish(wire.encode_occupancy(observation))
             case _:
                 assert_never(observation)
 

@@ -32,6 +32,7 @@ class Tick:
         odometry_count: to an agent: of its own odometry; to the recorder: of everybody's.
         connectivity_count: of connectivity.
         clock_count: of clock.
+        map_count: of the map.
         agent_counts: per agent, to an agent: of team messages that have arrived by ``time_ns``;
             to the recorder: of all that the agent has published.
         stop: the run is over.
@@ -42,6 +43,7 @@ class Tick:
     odometry_count: int
     connectivity_count: int
     clock_count: int
+    map_count: int
     agent_counts: tuple[int, ...]
     stop: bool = False
 

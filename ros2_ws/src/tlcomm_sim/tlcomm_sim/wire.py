@@ -1,23 +1,27 @@
 """The sim's messages and the core's values, one to one and lossless.
 
-``encode_clock``, ``encode_odometry``, ``encode_connectivity``, ``encode_tick``
+``encode_clock``, ``encode_odometry``, ``encode_connectivity``, ``encode_occupancy``,
+``encode_tick``
 ``decode_command``  a velocity command
 ``decode_answer``   an agent's or the recorder's answer to a tick
 """
 
 import math
+from array import array
 from collections.abc import Sequence
 from typing import Any, Final
 
+import numpy as np
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import OccupancyGrid
 from nav_msgs.msg import Odometry as OdometryMessage
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Header
 
 from tlcomm_core.geometry import quaternion_from_yaw, yaw_from_quaternion
 from tlcomm_core.units import NANOSECONDS_PER_SECOND
-from tlcomm_core.world.observation import Connectivity, Odometry
+from tlcomm_core.world.observation import Connectivity, Occupancy, Odometry
 from tlcomm_msgs import msg
 from tlcomm_sim.outputs import Answer, Tick
 
@@ -26,11 +30,13 @@ __all__ = [
     "decode_command",
     "encode_clock",
     "encode_connectivity",
+    "encode_occupancy",
     "encode_odometry",
     "encode_tick",
 ]
 
 _FRAME: Final = "map"
+_OCCUPIED: Final = 100
 
 # Generated messages are opaque.
 _RosMessage = Any
@@ -73,6 +79,18 @@ def encode_connectivity(
     )
 
 
+def encode_occupancy(occupancy: Occupancy) -> OccupancyGrid:
+    """Return the map: 0 for free cells and 100 for others, by rows from the lower left."""
+    grid = occupancy.grid
+    cells = np.where(grid.free, 0, _OCCUPIED).astype(np.int8)
+    message = OccupancyGrid(header=_header(occupancy.stamp_ns), data=array("b", cells.tobytes()))
+    message.info.map_load_time = message.header.stamp
+    message.info.resolution = grid.cell_m
+    message.info.height, message.info.width = grid.shape
+    message.info.origin.position.x, message.info.origin.position.y = grid.origin_m
+    return message
+
+
 def encode_tick(tick: Tick) -> _RosMessage:
     """Return a tick as a message."""
     return msg.Tick(
@@ -81,6 +99,7 @@ def encode_tick(tick: Tick) -> _RosMessage:
         odometry_count=tick.odometry_count,
         connectivity_count=tick.connectivity_count,
         clock_count=tick.clock_count,
+        map_count=tick.map_count,
         agent_counts=list(tick.agent_counts),
         stop=tick.stop,
     )

@@ -8,6 +8,7 @@
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 
+from tlcomm_core.agent.charts import Charts
 from tlcomm_core.agent.controller import Pacing
 from tlcomm_core.agent.member import create, team_of
 from tlcomm_core.agent.rounds import MeetingRounds
@@ -18,8 +19,9 @@ from tlcomm_core.game.solver import DEFAULT, Solver
 from tlcomm_core.mission import Mission
 from tlcomm_core.protocol.actions import SendMessage
 from tlcomm_core.protocol.messages import Message, PlanOffer
-from tlcomm_core.scenario.site import Site
+from tlcomm_core.scenario.site import Site, later_grids
 from tlcomm_core.simulation import simulate
+from tlcomm_core.units import nanoseconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_tools.limit import time_limit_s
 
@@ -73,13 +75,17 @@ def pose_first_round(site: Site) -> RoundProblem:
 
 
 class _Poser:
-    """Poses a scenario's problems on one map."""
+    """Poses a scenario's problems."""
 
     def __init__(self, site: Site) -> None:
         self.atlas = Atlas(site.grid, site.region_discs)
         self._site = site
         self._team = team_of(site)
-        self._rounds = MeetingRounds(self.atlas, self._team, segment_allowance_s=0.0)
+        charts = Charts(self.atlas)
+        workspace = site.scenario.workspace
+        for change, grid in zip(workspace.changes, later_grids(workspace), strict=True):
+            charts.take(nanoseconds(change.at_s), grid.free)
+        self._rounds = MeetingRounds(charts, self._team, segment_allowance_s=0.0)
 
     def problem(self, number: int, offers: Mapping[str, MemberOffer]) -> RoundProblem:
         """Return the problem of a round from the offers for it."""

@@ -137,3 +137,14 @@ def test_a_visit_is_a_step_of_the_word() -> None:
     )
     records.tasks.insert(records.tasks.index(picked) + 1, visit)
     assert audit_with(records, task=formula).tasks[1].satisfied == 1
+
+
+def test_claims_count_until_a_plan_begins_anew() -> None:
+    """What another plan for the same task satisfies isn't what all steps do; the verdict stays."""
+    records = hand_made_records()
+    records.tasks.append(task(24.0, "west", TaskEventKind.TASK_SATISFIED))
+    assert any("claimed satisfied" in line for line in audit_with(records).violations)
+    records.tasks.insert(-1, task(23.5, "west", TaskEventKind.PLAN_CHANGED))
+    found = audit_with(records)
+    assert found.violations == ()
+    assert found.tasks[1].verdict is not None

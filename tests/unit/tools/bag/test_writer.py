@@ -129,7 +129,7 @@ def test_the_footer_has_the_summarys_checksum(tmp_path: Path) -> None:
 
 
 def test_metadata_has_counts_and_qualities(tmp_path: Path) -> None:
-    """metadata.yaml says how many messages each topic has, and offers strategies latched."""
+    """metadata.yaml counts each topic's messages, and offers map and strategies latched."""
     records = hand_made_records()
     write_bag(tmp_path / "bag", records)
     text = (tmp_path / "bag" / "metadata.yaml").read_text("utf-8")
@@ -148,7 +148,7 @@ def test_metadata_has_counts_and_qualities(tmp_path: Path) -> None:
             for own in reader.connections
             if own.ext.offered_qos_profiles[0].durability is QosDurability.TRANSIENT_LOCAL
         }
-    assert latched == {"/east/team_strategy", "/west/team_strategy"}
+    assert latched == {"/map", "/east/team_strategy", "/west/team_strategy"}
 
 
 def test_the_bag_is_whole_after_each_flush(tmp_path: Path) -> None:

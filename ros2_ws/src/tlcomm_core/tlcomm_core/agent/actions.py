@@ -27,7 +27,7 @@ __all__ = [
 
 
 _DISAGREEMENT: Final = "agreement="
-_COPED_WITH: Final = ("displaced_m=", _DISAGREEMENT)
+_COPED_WITH: Final = ("displaced_m=", "cut_off_m=", "blocked=", _DISAGREEMENT)
 
 
 class TaskEventKind(IntEnum):
@@ -43,6 +43,7 @@ class TaskEventKind(IntEnum):
     FAULT = 8
     REGION_VISITED = 9
     TASK_CHANGED = 10
+    PLAN_CHANGED = 11
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +70,8 @@ class TaskEvent:
     def is_coped_with(self) -> bool:
         """Whether it is a fault after which the agent goes on.
 
-        These are failed actions, displacements, and meetings that end without agreement.
+        These are failed actions, displacements, ways that the map has closed, and meetings that end
+        without agreement.
         """
         is_fault = self.kind is TaskEventKind.FAULT
         return is_fault and (bool(self.action) or self.detail.startswith(_COPED_WITH))

@@ -1,14 +1,14 @@
 """Hybrid execution: an agent's plan, interleaved with the team's meetings.
 
-``Brain``     events in, actions out; no clock, no logger, no transport inside
-``Settings``  what a brain is made of
+``Brain``  events in, actions out; no clock, no logger, no transport inside
 
 What it is doing is one of four activities, in this cycle (Section IV-C of the paper):
 
 Meeting    at its place: negotiate the next meeting; leave at t_c + D_c. (``meeting``: later, or for
            the last meeting's place, if the network is so bad that there is no agreement by then.)
 Driving    to the next step of its plan, or to the next place of meeting; anew, from where it is,
-           when something has put it off its way, be it into what its task forbids.
+           when something has put it off its way, be it into what its task forbids, or when the map
+           has closed that.
 Acting     at a step's region, until the step is done, or begun anew since its action failed.
            Steps go on, through prefix and suffix, up to h; then to z, and Meeting again.
            (``itinerary``: up to fewer, if failures have taken the time.)
@@ -17,84 +17,38 @@ At t = 0 the team is connected: the first odometry finds the agent at the meetin
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from tlcomm_core.agent.actions import Action, Drive, ReportTask, TaskEvent, TaskEventKind
-from tlcomm_core.agent.controller import Follower, Pacing
+from tlcomm_core.agent.activities import Acting, Driving
+from tlcomm_core.agent.controller import Follower
 from tlcomm_core.agent.events import (
     Event,
+    MapChanged,
     MessageHeard,
     OdometryReceived,
     TaskChanged,
     TimePassed,
 )
-from tlcomm_core.agent.faults import ActionFaults
 from tlcomm_core.agent.itinerary import Itinerary
 from tlcomm_core.agent.meeting import RESOLUTION_S, Meeting
 from tlcomm_core.agent.reckoning import DeadReckoning
+from tlcomm_core.agent.settings import Settings
+from tlcomm_core.errors import PlanningError
 from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.geometry import Pose, wrap_angle
-from tlcomm_core.planning.plan import LocalPlan, PlanStep
+from tlcomm_core.planning.plan import PlanStep
 from tlcomm_core.protocol.actions import CountIgnored
-from tlcomm_core.protocol.negotiation import Negotiation, Phase, Rounds
-from tlcomm_core.protocol.team import Team
+from tlcomm_core.protocol.negotiation import Negotiation, Phase
 from tlcomm_core.protocol.whereabouts import Ending, Whereabouts
-from tlcomm_core.workspace.travel import Leg, TravelTimes
+from tlcomm_core.workspace.travel import TravelTimes
 
-__all__ = ["Brain", "Settings"]
+__all__ = ["Brain"]
 
 # An agent that ends a leg as near as its tolerance and no further turned than this takes itself
 # to be where the leg was to end: what it is off by is the controller's business.
 _YAW_TOLERANCE_RAD = 0.1
-
-
-@dataclass(frozen=True, slots=True)
-class Settings:
-    """What a brain is made of.
-
-    Attributes:
-        name: the agent's name.
-        plan: its local plan.
-        travel: travel times with its own motion.
-        team: the team.
-        rounds: poses round problems.
-        position_tolerance_m: how far its controller may be off a waypoint.
-        most_deviation_m: further off its way than this it has been displaced.
-        pacing: how often its controller is asked.
-        faults: which attempts at actions fail.
-        retries: how often a failed action is begun anew before the next meeting.
-    """
-
-    name: str
-    plan: LocalPlan
-    travel: TravelTimes
-    team: Team
-    rounds: Rounds
-    position_tolerance_m: float
-    most_deviation_m: float
-    pacing: Pacing
-    faults: ActionFaults
-    retries: int
-
-
-@dataclass(slots=True)
-class _Driving:
-    """On the way to the next step or, with ``meeting`` set, to the place of meeting."""
-
-    leg: Leg
-    follower: Follower
-    meeting: Strategy | None
-    control_s: float
-    displaced_m: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class _Acting:
-    """At a step's region, until the step is done."""
-
-    step: PlanStep
-    until_s: float
 
 
 class Brain:
@@ -104,11 +58,17 @@ class Brain:
         """Be ready for the first odometry."""
         self._settings = settings
         self._reckoning = DeadReckoning()
-        self._activity: _Driving | _Acting | Meeting | None = None
+        self._activity: Driving | Acting | Meeting | None = None
         self._round = 0
         self._whereabouts: Whereabouts | None = None
         self._itinerary = Itinerary(settings.plan, settings.travel, settings.retries)
         self._pose = Pose(0.0, 0.0, 0.0)
+        self._map_ns = 0
+
+    @property
+    def travel(self) -> TravelTimes:
+        """Travel times on the latest map that it was told of."""
+        return self._itinerary.travel
 
     @property
     def meetings_ended(self) -> int:
@@ -139,9 +99,9 @@ class Brain:
         match self._activity:
             case None:
                 return math.inf
-            case _Driving(control_s=control_s):
+            case Driving(control_s=control_s):
                 return control_s
-            case _Acting(until_s=until_s):
+            case Acting(until_s=until_s):
                 return until_s
             case Meeting() as meeting:
                 return meeting.next_need_s
@@ -165,18 +125,37 @@ class Brain:
             case TaskChanged():
                 self._itinerary.change(event)
                 return ()
+            case MapChanged():
+                return tuple(self._see_map(event, now_s))
             case TimePassed():
                 return tuple(self._proceed(now_s))
 
     def _locate(self, odometry: OdometryReceived, now_s: float) -> list[Action]:
         self._reckoning.take(odometry)
-        if isinstance(self._activity, _Driving):
+        if isinstance(self._activity, Driving):
             self._watch(self._activity, odometry.pose)
         if self._activity is not None:
             return []
         self._pose = odometry.pose
         self._whereabouts = Whereabouts((self._pose.x_m, self._pose.y_m))
         return self._reach_meeting(now_s)
+
+    def _see_map(self, change: MapChanged, now_s: float) -> list[Action]:
+        """Go by another map: at once if it closes the way under way, else with the next leg.
+
+        An agent that it had cut off from its place of meeting, and nobody has joined, goes there.
+        """
+        driving = self._activity if isinstance(self._activity, Driving) else None
+        pose = self._pose if driving is None else self._reckoning.pose_at(now_s)
+        self._map_ns = change.map_ns
+        self._itinerary.change_map(change.travel, pose)
+        if driving is not None:
+            ahead_m = [(pose.x_m, pose.y_m), *driving.follower.ahead_m]
+            is_open = self._itinerary.still_leads(driving.leg, ahead_m, driving.meeting)
+            driving.is_closed = not is_open
+        meeting = self._activity
+        is_alone = isinstance(meeting, Meeting) and meeting.negotiation.is_alone
+        return self._set_out(now_s) if is_alone and self._itinerary.calls_away(pose) else []
 
     def _proceed(self, now_s: float) -> list[Action]:
         """Do whatever is due; one activity may end and the next begin at one instant."""
@@ -186,9 +165,9 @@ class Brain:
             match activity:
                 case None:
                     return actions
-                case _Driving():
+                case Driving():
                     actions += self._drive(activity, now_s)
-                case _Acting():
+                case Acting():
                     actions += self._act(activity, now_s)
                 case Meeting():
                     actions += self._meet(activity, now_s)
@@ -201,6 +180,8 @@ class Brain:
         actions: list[Action] = [self._report(TaskEventKind.MEETING_REACHED, detail=detail)]
         if (change := self._itinerary.reach_meeting()) is not None:
             actions.append(self._report(TaskEventKind.TASK_CHANGED, detail=f"task={change.task}"))
+        if self._itinerary.is_blocked(self._pose):
+            actions.append(self._plan_anew())
         settings = self._settings
         self._activity = Meeting(
             settings.name,
@@ -209,6 +190,16 @@ class Brain:
             lambda meeting: self._itinerary.leg(self._pose, meeting).duration_s,
         )
         return actions
+
+    def _plan_anew(self) -> Action:
+        """Take on another plan for the same task, if there is one on the map as it is."""
+        itinerary = self._itinerary
+        try:
+            plan = self._settings.planner(itinerary.task, self._pose, itinerary.travel)
+        except PlanningError as error:
+            return self._report(TaskEventKind.FAULT, detail=f"blocked={error}")
+        itinerary.plan_anew(plan)
+        return self._report(TaskEventKind.PLAN_CHANGED)
 
     def _offer(self, now_s: float) -> MemberOffer:
         settings = self._settings
@@ -225,6 +216,7 @@ class Brain:
             angular_radps=settings.travel.motion.angular_radps,
             stops=self._itinerary.next_stops(self._pose, horizon_s),
             avoided=tuple(sorted(settings.travel.grid.avoided)),
+            map_ns=self._map_ns,
         )
 
     def _meet(self, meeting: Meeting, now_s: float) -> list[Action]:
@@ -239,6 +231,7 @@ class Brain:
             meeting.is_agreed = True
             own = meeting.own_part(negotiation.agreed)
             self._itinerary.agree(own, negotiation.agreed.communication_s)
+            self._itinerary.heed_map(self._pose, meeting.over_s)
             actions.append(self._report(TaskEventKind.ROUND_AGREED, round_=round_))
         if self._is_due(meeting.over_s, now_s) and not meeting.is_agreed | meeting.is_overdue:
             meeting.is_overdue = True
@@ -263,11 +256,12 @@ class Brain:
         if own is not None and confirmed is not None:
             if not meeting.is_agreed:
                 self._itinerary.agree(own, confirmed.communication_s)
+                self._itinerary.heed_map(self._pose, now_s)
             if meeting.is_prolonged:
                 self._itinerary.delay()
             return [*actions, *self._set_out(now_s)]
         there_m = self._whereabouts.place(self._round)
-        if there_m == here_m:
+        if there_m == here_m and not self._itinerary.calls_away(self._pose):
             return [*actions, *self._reach_meeting(now_s)]
         self._itinerary.agree(self._return_to(there_m, now_s), now_s)
         return [*actions, *self._set_out(now_s)]
@@ -295,13 +289,18 @@ class Brain:
             settings.position_tolerance_m,
             settings.pacing,
         )
-        self._activity = _Driving(leg, follower, meeting, now_s)
-        return []
+        self._activity = Driving(leg, follower, meeting, now_s)
+        if meeting is None or not self._itinerary.is_cut_off(self._pose):
+            return []
+        detail = f"cut_off_m={leg.arrival.distance_m(meeting.x_m, meeting.y_m):.3f}"
+        return [self._report(TaskEventKind.FAULT, detail=detail)]
 
-    def _drive(self, driving: _Driving, now_s: float) -> list[Action]:
+    def _drive(self, driving: Driving, now_s: float) -> list[Action]:
         pose = self._reckoning.pose_at(now_s)
         if driving.displaced_m is not None:
             return self._recover(driving.displaced_m, pose, now_s)
+        if driving.is_closed:
+            return [Drive(0.0, 0.0), *self._set_out_anew(pose, now_s)]
         if not self._is_due(driving.control_s, now_s):
             return []
         control = driving.follower.control(pose, now_s)
@@ -316,7 +315,7 @@ class Brain:
         detail = f"predicted_s={predicted_s:.9f} error_s={now_s - predicted_s:.9f}"
         return [*actions, *self._reach_meeting(now_s, detail)]
 
-    def _watch(self, driving: _Driving, pose: Pose) -> None:
+    def _watch(self, driving: Driving, pose: Pose) -> None:
         """See whether something has put the agent off its way."""
         deviation_m = driving.follower.deviation_m(pose)
         is_displaced = deviation_m > self._settings.most_deviation_m
@@ -325,22 +324,25 @@ class Brain:
 
     def _recover(self, displaced_m: float, pose: Pose, now_s: float) -> list[Action]:
         """Go on from where something has put the agent, as far as there is time to."""
-        self._pose = pose
-        self._itinerary.delay()
         detail = f"displaced_m={displaced_m:.3f}"
         fault = self._report(
             TaskEventKind.FAULT, plan_index=self._itinerary.done + 1, detail=detail
         )
-        return [fault, *self._set_out(now_s)]
+        return [fault, *self._set_out_anew(pose, now_s)]
+
+    def _set_out_anew(self, pose: Pose, now_s: float) -> list[Action]:
+        self._pose = pose
+        self._itinerary.delay()
+        return self._set_out(now_s)
 
     def _begin_step(self, now_s: float) -> list[Action]:
         step = self._itinerary.step
-        self._activity = _Acting(step, now_s + step.duration_s)
+        self._activity = Acting(step, now_s + step.duration_s)
         if step.action is None:
             return []
         return [self._report(TaskEventKind.ACTION_STARTED, step, self._itinerary.done + 1)]
 
-    def _act(self, acting: _Acting, now_s: float) -> list[Action]:
+    def _act(self, acting: Acting, now_s: float) -> list[Action]:
         if not self._is_due(acting.until_s, now_s):
             return []
         has_acted = acting.step.action is not None

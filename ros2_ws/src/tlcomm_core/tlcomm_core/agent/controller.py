@@ -70,6 +70,11 @@ class Follower:
         self._pacing = pacing
         self._is_approaching = False
 
+    @property
+    def ahead_m(self) -> tuple[tuple[float, float], ...]:
+        """The waypoints that are left."""
+        return tuple(self._waypoints)
+
     def deviation_m(self, pose: Pose) -> float:
         """Return how far a pose is from the straight that is being driven."""
         (x_m, y_m), *_ = self._waypoints or [self._passed_m]

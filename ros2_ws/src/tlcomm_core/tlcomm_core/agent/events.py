@@ -3,6 +3,7 @@
 ``OdometryReceived``  where it is and how it moves
 ``MessageHeard``      a neighbour's message that the radio let through
 ``TaskChanged``       another task was given to it, and a plan made
+``MapChanged``        other ways are open to it
 ``TimePassed``        nothing but that it is later now
 ``Event``             any of them
 """
@@ -12,8 +13,10 @@ from dataclasses import dataclass
 from tlcomm_core.geometry import Pose
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.protocol.messages import Message
+from tlcomm_core.workspace.grid import Grid
+from tlcomm_core.workspace.travel import TravelTimes
 
-__all__ = ["Event", "MessageHeard", "OdometryReceived", "TaskChanged", "TimePassed"]
+__all__ = ["Event", "MapChanged", "MessageHeard", "OdometryReceived", "TaskChanged", "TimePassed"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,10 +43,25 @@ class TaskChanged:
     Attributes:
         task: its formula's text.
         plan: its plan, from where the next meeting is.
+        grid: the map that the plan was made on.
     """
 
     task: str
     plan: LocalPlan
+    grid: Grid
+
+
+@dataclass(frozen=True, slots=True)
+class MapChanged:
+    """The map is another.
+
+    Attributes:
+        map_ns: the time from which it holds.
+        travel: the agent's travel times on it.
+    """
+
+    map_ns: int
+    travel: TravelTimes
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,4 +69,4 @@ class TimePassed:
     """The time that the brain had asked for has come, or any other."""
 
 
-Event = OdometryReceived | MessageHeard | TaskChanged | TimePassed
+Event = OdometryReceived | MessageHeard | TaskChanged | MapChanged | TimePassed

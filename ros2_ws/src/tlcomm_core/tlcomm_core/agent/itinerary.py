@@ -12,17 +12,24 @@ is no longer than the rest of what had fitted in, which leads there too.
 
 The agreed h counts the plan's steps, and others reckon with them. So another plan begins at the
 next meeting, with what the agent offers there.
+
+When the map changes, ways may become longer: if what is left takes more time than before, time
+decides on each step as after a failure. A step that can't be reached any more ends what is done
+before the meeting; a place of meeting that can't is replaced by the nearest one that can.
 """
 
+import math
+from collections.abc import Sequence
 from typing import Final
 
 from tlcomm_core.agent.events import TaskChanged
+from tlcomm_core.agent.ways import Ways
 from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.game.offer import PlannedStop, next_stops
 from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.geometry import Pose
 from tlcomm_core.planning.plan import LocalPlan, PlanStep
-from tlcomm_core.workspace.retreat import Retreat
+from tlcomm_core.workspace.grid import Grid
 from tlcomm_core.workspace.travel import Leg, TravelTimes
 
 __all__ = ["Itinerary"]
@@ -36,6 +43,7 @@ class Itinerary:
 
     Attributes:
         done: index of the last step done; −1 before the first.
+        task: the task that was given last; ``None`` for the scenario's.
     """
 
     def __init__(self, plan: LocalPlan, travel: TravelTimes, retries: int) -> None:
@@ -47,9 +55,12 @@ class Itinerary:
             retries: how often a failed action is begun anew before the next meeting.
         """
         self.done = -1
+        self.task: str | None = None
         self._plan = plan
-        self._travel: Final = travel
-        self._retreat: Final = Retreat(travel)
+        self._made: tuple[LocalPlan, Grid] = (plan, travel.grid)
+        self._ways: Final = Ways(travel)
+        self._is_map_new = False
+        self._has_reached = False
         self._retries: Final = retries
         self._meeting: Strategy | None = None
         self._meeting_s = 0.0
@@ -62,6 +73,11 @@ class Itinerary:
         """The step to do next, or under way."""
         return self._plan.step(self.done + 1)
 
+    @property
+    def travel(self) -> TravelTimes:
+        """Travel times on the map as it is."""
+        return self._ways.travel
+
     def agree(self, meeting: Strategy, meeting_s: float) -> None:
         """Take the agent's own part in what the team has agreed on.
 
@@ -73,18 +89,54 @@ class Itinerary:
         self._meeting_s = meeting_s
         self._failures = 0
         self._is_delayed = False
+        self._has_reached = False
+
+    def heed_map(self, pose: Pose, departure_s: float) -> None:
+        """Note whether what was agreed takes longer on a map that is newer than the agreement's.
+
+        Args:
+            pose: where the agent stands at the meeting.
+            departure_s: when it leaves.
+        """
+        if self._is_map_new and departure_s + self._left_s(pose) > self._latest_s():
+            self.delay()
+        self._is_map_new = False
+
+    def change_map(self, travel: TravelTimes, pose: Pose) -> None:
+        """Go by another map from now on.
+
+        Args:
+            travel: travel times on it.
+            pose: where the agent is.
+        """
+        before_s = self._left_s(pose)
+        self._ways.change(travel, pose)
+        self._locate_plan()
+        self._is_map_new = True
+        if self._left_s(pose) > before_s + _ROUNDING_S:
+            self.delay()
 
     def change(self, change: TaskChanged) -> None:
         """Note another plan; it begins at the next meeting, unless yet another comes before."""
         self._change = change
 
     def reach_meeting(self) -> TaskChanged | None:
-        """Begin the other plan, if there is one; return what has changed."""
+        """Do no more until the next agreement; begin the other plan, if any, and return it."""
+        self._has_reached = True
         change, self._change = self._change, None
         if change is not None:
-            self._plan = change.plan
-            self.done = -1
+            self.task = change.task
+            self._begin(change.plan, change.grid)
         return change
+
+    def plan_anew(self, plan: LocalPlan) -> None:
+        """Begin another plan for the same task, made on the present map."""
+        self._begin(plan, self.travel.grid)
+
+    def is_blocked(self, pose: Pose) -> bool:
+        """Return whether the plan has a step ahead that can't be reached from a pose."""
+        ahead = (*self._plan.prefix[self.done + 1 :], *self._plan.suffix)
+        return not all(self._ways.lead(pose, place) for place in {s.location for s in ahead})
 
     def meeting_pose(self, pose: Pose) -> Pose:
         """Return where the agent will be at the meeting if nothing fails.
@@ -92,11 +144,7 @@ class Itinerary:
         Args:
             pose: where the agent has set out from.
         """
-        meeting = self._agreed()
-        pose, _ = self._let_out(pose)
-        for index in range(self.done + 1, meeting.task_index + 1):
-            pose = self._travel.leg_to(pose, self._plan.step(index).location).arrival
-        return self.leg(pose, meeting).arrival
+        return self._legs(pose)[-1].arrival
 
     def finish_step(self) -> None:
         """Note that the step has been done."""
@@ -115,10 +163,22 @@ class Itinerary:
 
     def can_go_on(self, pose: Pose) -> bool:
         """Return whether a way leads from a pose to what is planned."""
-        grid = self._travel.grid
-        pose, _ = self._let_out(pose)
-        here = grid.location_at(pose.x_m, pose.y_m)
-        return here is not None and grid.components[here] == grid.components[self.step.location]
+        return self._ways.lead(pose, self.step.location)
+
+    def still_leads(
+        self, leg: Leg, ahead_m: Sequence[tuple[float, float]], meeting: Strategy | None
+    ) -> bool:
+        """Return whether a leg under way ends where the agent is to go, and its rest is free.
+
+        Args:
+            leg: the leg.
+            ahead_m: where the agent is, and the waypoints that are left.
+            meeting: where it leads, as for ``leg``.
+        """
+        grid = self.travel.grid
+        pose = Pose(*ahead_m[0], 0.0)
+        end = grid.location_at(leg.arrival.x_m, leg.arrival.y_m)
+        return end is not None and end == self._target(pose, meeting) and grid.is_clear(ahead_m)
 
     def next_meeting(self, pose: Pose, now_s: float) -> Strategy | None:
         """Return the meeting if it is time to go there; ``None`` if a step comes first.
@@ -128,7 +188,7 @@ class Itinerary:
             now_s: the time.
         """
         meeting = self._agreed()
-        if self.done >= meeting.task_index:
+        if not self._steps_left() or not self._ways.lead(pose, self.step.location):
             return meeting
         if not self._is_delayed:
             return None
@@ -138,14 +198,27 @@ class Itinerary:
     def leg(self, pose: Pose, meeting: Strategy | None) -> Leg:
         """Return the way to a meeting or, with ``None``, to the next step.
 
-        It begins with the way out of what the task forbids, if something has put the agent there.
+        It begins with the way out of what the task forbids or the map has closed, if the agent is
+        there. Where the place of meeting can't be reached, it leads to the nearest that can; it is
+        empty if none can.
         """
-        pose, retreat = self._let_out(pose)
+        target = self._target(pose, meeting)
+        if target is None:
+            return Leg((), 0.0, 0.0, pose)
         if meeting is None:
-            onward = self._travel.leg_to(pose, self.step.location)
-        else:
-            onward = self._travel.leg_from(pose, self._place(meeting))
-        return onward if retreat is None else _joined(retreat, onward)
+            return self._ways.leg_to(pose, target)
+        return self._ways.leg_from(pose, target)
+
+    def is_cut_off(self, pose: Pose) -> bool:
+        """Return whether the agreed place of meeting can't be reached."""
+        return not self._ways.lead(pose, self._place(self._agreed()))
+
+    def calls_away(self, pose: Pose) -> bool:
+        """Return whether the agreed place of meeting is elsewhere, and can be reached."""
+        if self._meeting is None:
+            return False
+        place, here = self._place(self._meeting), self.travel.grid.location_at(pose.x_m, pose.y_m)
+        return place != here and self._ways.lead(pose, place)
 
     def next_stops(self, pose: Pose, horizon_s: float) -> tuple[PlannedStop, ...]:
         """Return the next steps with the times and poses at which they are finished.
@@ -154,12 +227,7 @@ class Itinerary:
             pose: where the agent stands at the present meeting.
             horizon_s: time from the departure to the end of the window to plan.
         """
-        return next_stops(self._plan, self.done + 1, pose, self._travel, horizon_s)
-
-    def _let_out(self, pose: Pose) -> tuple[Pose, Leg | None]:
-        """Return where the plan goes on from, and the way out that leads there, if it takes one."""
-        retreat = self._retreat.leg(pose, self.step.location)
-        return (pose, None) if retreat is None else (retreat.arrival, retreat)
+        return next_stops(self._plan, self.done + 1, pose, self.travel, horizon_s)
 
     def _has_time(self, pose: Pose, now_s: float) -> bool:
         """Return whether the next step can be done before the meeting."""
@@ -173,18 +241,54 @@ class Itinerary:
             raise LocalMisuseError("an agent set out before any meeting was agreed")
         return self._meeting
 
+    def _target(self, pose: Pose, meeting: Strategy | None) -> int | None:
+        if meeting is None:
+            return self.step.location
+        place = self._place(meeting)
+        if self._ways.lead(pose, place):
+            return place
+        return self._ways.nearest(pose, meeting.x_m, meeting.y_m)
+
     def _place(self, meeting: Strategy) -> int:
-        place = self._travel.grid.location_at(meeting.x_m, meeting.y_m)
-        if place is None:
-            raise LocalMisuseError(f"the agreed place of {meeting!r} isn't free")
-        return place
+        """Return the location of a meeting; −1 if the map has closed it."""
+        place = self.travel.grid.location_at(meeting.x_m, meeting.y_m)
+        return -1 if place is None else place
 
+    def _legs(self, pose: Pose) -> list[Leg]:
+        """Return the legs that are left to the meeting, as far as they can be driven."""
+        legs: list[Leg] = []
+        for step in self._steps_left():
+            if not self._ways.lead(pose, step.location):
+                break
+            legs.append(self._ways.leg_to(pose, step.location))
+            pose = legs[-1].arrival
+        return [*legs, self.leg(pose, self._agreed())]
 
-def _joined(leg: Leg, onward: Leg) -> Leg:
-    """Return a leg and the one that begins where it arrives as one."""
-    return Leg(
-        waypoints_m=leg.waypoints_m + onward.waypoints_m,
-        duration_s=leg.duration_s + onward.duration_s,
-        distance_m=leg.distance_m + onward.distance_m,
-        arrival=onward.arrival,
-    )
+    def _steps_left(self) -> list[PlanStep]:
+        if self._has_reached:
+            return []
+        last = self._agreed().task_index
+        return [self._plan.step(index) for index in range(self.done + 1, last + 1)]
+
+    def _left_s(self, pose: Pose) -> float:
+        """Return what is left to the meeting takes from a pose; inf if it can't be done."""
+        if self._meeting is None:
+            return 0.0
+        legs, steps = self._legs(pose), self._steps_left()
+        if len(legs) <= len(steps):
+            return math.inf
+        return sum(leg.duration_s for leg in legs) + sum(step.duration_s for step in steps)
+
+    def _latest_s(self) -> float:
+        """Return when the agent is to be at the meeting, as agreed."""
+        return self._agreed().arrival_s + _ROUNDING_S
+
+    def _begin(self, plan: LocalPlan, grid: Grid) -> None:
+        self._made = (plan, grid)
+        self.done = -1
+        self._locate_plan()
+
+    def _locate_plan(self) -> None:
+        """Find the plan's places on the present map."""
+        plan, grid = self._made
+        self._plan = plan.relocated(grid.numbers_in(self.travel.grid))

@@ -9,16 +9,27 @@ import math
 from collections.abc import Mapping
 from typing import Final
 
+import numpy as np
+from numpy.typing import NDArray
+
 from tlcomm_core.agent.actions import Action
 from tlcomm_core.agent.avoidance import travel_of
-from tlcomm_core.agent.brain import Brain, Settings
+from tlcomm_core.agent.brain import Brain
 from tlcomm_core.agent.channel import Channel
+from tlcomm_core.agent.charts import Charts
 from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
-from tlcomm_core.agent.events import MessageHeard, OdometryReceived, TaskChanged, TimePassed
+from tlcomm_core.agent.events import (
+    MapChanged,
+    MessageHeard,
+    OdometryReceived,
+    TaskChanged,
+    TimePassed,
+)
 from tlcomm_core.agent.faults import ActionFaults, fault_rng
 from tlcomm_core.agent.planner import Planner, local_plan, plan_for
 from tlcomm_core.agent.radio import OUT_OF_RANGE, UNSEEN, Radio
 from tlcomm_core.agent.rounds import MeetingRounds
+from tlcomm_core.agent.settings import Settings
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.game.rules import Rules
 from tlcomm_core.game.solver import DEFAULT, Solver
@@ -30,6 +41,7 @@ from tlcomm_core.protocol.team import Team
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.workspace.atlas import Atlas
+from tlcomm_core.workspace.travel import TravelTimes
 
 __all__ = ["Member", "create", "team_of"]
 
@@ -46,13 +58,17 @@ _OFF_TOLERANCES: Final = 5.0
 class Member:
     """One agent: what its radio lets through and its odometry reach its brain, at given times."""
 
-    def __init__(self, name: str, brain: Brain, radio: Radio, planner: Planner) -> None:
-        """Join a brain and a radio, with what makes plans for other tasks."""
+    def __init__(
+        self, name: str, brain: Brain, radio: Radio, planner: Planner, charts: Charts
+    ) -> None:
+        """Join a brain and a radio, with what makes plans for other tasks, and the maps."""
         self.name: Final = name
         self._brain = brain
         self._radio = radio
         self._planner = planner
+        self._charts = charts
         self._odometry: list[OdometryReceived] = []
+        self._maps: list[MapChanged] = []
         self._next_need_ns: int | None = None
 
     @property
@@ -86,6 +102,18 @@ class Member:
         """Take an odometry; the next step makes use of it."""
         self._odometry.append(OdometryReceived(seconds(stamp_ns), pose, linear_mps, angular_radps))
 
+    def see_map(self, stamp_ns: int, free: NDArray[np.bool_]) -> None:
+        """Take a map; the next step makes use of it, if it is later than those before.
+
+        Args:
+            stamp_ns: from when on it holds.
+            free: which cells are free, bool[rows, columns], as on the scenario's map.
+        """
+        if self._charts.take(stamp_ns, free):
+            travel = self._brain.travel
+            now = self._charts.latest.travel(travel.motion, frozenset(travel.grid.avoided))
+            self._maps.append(MapChanged(stamp_ns, now))
+
     def see_neighbours(self, stamp_ns: int, distances_m: Mapping[str, float]) -> None:
         """Note who is in range from ``stamp_ns`` on, and how far away."""
         self._radio.see_neighbours(stamp_ns, distances_m)
@@ -107,8 +135,9 @@ class Member:
         start = self._brain.next_start
         if start is None:
             raise PlanningError("the next meeting isn't agreed on yet: ask again when it is")
-        plan = self._planner(task, start)
-        self._brain.handle(TaskChanged(task, plan), seconds(now_ns))
+        travel = self._brain.travel
+        plan = self._planner(task, start, travel)
+        self._brain.handle(TaskChanged(task, plan, travel.grid), seconds(now_ns))
         return plan
 
     def step(self, now_ns: int) -> tuple[Action, ...]:
@@ -119,12 +148,18 @@ class Member:
         """
         now_s = seconds(now_ns)
         actions: list[Action] = []
+        # Odometry first, whichever came first: from where a new map finds the agent, it goes on.
         odometry, self._odometry = self._odometry, []
-        for event in odometry:
+        maps, self._maps = self._maps, []
+        seen: list[OdometryReceived | MapChanged] = [*odometry, *maps]
+        for event in seen:
             actions += self._brain.handle(event, now_s)
         for message in self._radio.heard(now_ns):
             actions += self._brain.handle(MessageHeard(message), now_s)
+        meetings = self._brain.meetings_ended
         actions += self._brain.handle(TimePassed(), now_s)
+        if self._brain.meetings_ended != meetings:
+            self._charts.forget()
         self._next_need_ns = self._needed_ns(now_ns)
         return tuple(actions)
 
@@ -181,13 +216,19 @@ def create(
     # Members' plans lead through regions: with this done, the first round takes no longer than
     # later ones.
     travel.prepare(site.region_location.values())
+    charts = Charts(atlas)
+
+    def planner(task: str | None, start: Pose, now: TravelTimes) -> LocalPlan:
+        return plan_for(task, start, name, site, now)
+
     brain = Brain(
         Settings(
             name=name,
             plan=local_plan(name, site, travel),
             travel=travel,
             team=team,
-            rounds=MeetingRounds(atlas, team, allowance_s),
+            planner=planner,
+            rounds=MeetingRounds(charts, team, allowance_s),
             position_tolerance_m=tolerance_m,
             most_deviation_m=max(_OFF_CELLS * site.grid.cell_m, _OFF_TOLERANCES * tolerance_m),
             pacing=pacing,
@@ -200,4 +241,4 @@ def create(
     channel = Channel(scenario.radio, scenario.communication.range_m, seed, name)
     unlinked = UNSEEN if scenario.radio.line_of_sight else OUT_OF_RANGE
     radio = Radio(nanoseconds(latency_s), channel, unlinked)
-    return Member(name, brain, radio, lambda task, start: plan_for(task, start, name, site, travel))
+    return Member(name, brain, radio, planner, charts)

@@ -2,9 +2,9 @@
 
 ``local_plan``      its plan for its task
 ``explained_plan``  the same beside what else there is
-``plan_for``        its plan for another task
+``plan_for``        its plan for another task, or on another map
 ``check_tasks``     whether all agents have one
-``Planner``         what makes plans for other tasks
+``Planner``         what makes plans during a run
 """
 
 from collections.abc import Callable
@@ -32,8 +32,9 @@ __all__ = ["Planner", "check_tasks", "explained_plan", "local_plan", "plan_for"]
 
 _Plan = TypeVar("_Plan", LocalPlan, Explanation)
 
-Planner = Callable[[str, Pose], LocalPlan]
-"""Makes an agent's plan for a task (its text) from a pose; raises InputError or PlanningError."""
+Planner = Callable[[str | None, Pose, TravelTimes], LocalPlan]
+"""Makes an agent's plan for a task (its text; ``None``: the scenario's) from a pose, on the map of
+travel times; raises InputError or PlanningError."""
 
 
 def local_plan(
@@ -114,22 +115,33 @@ def _soft_task(name: str, site: Site) -> SoftTask | None:
         raise type(error)(f"agents.{name}.soft.task: {error}") from error
 
 
-def plan_for(task: str, start: Pose, name: str, site: Site, travel: TravelTimes) -> LocalPlan:
-    """Return an agent's plan for another task than the scenario's, from another start.
+def plan_for(
+    task: str | None, start: Pose, name: str, site: Site, travel: TravelTimes
+) -> LocalPlan:
+    """Return an agent's plan for another task than the scenario's, from another start or map.
 
-    The task takes the place of all the agent's hard ones; its soft one stays.
+    Args:
+        task: takes the place of all the agent's hard tasks; its soft one stays. With ``None`` all
+            stay.
+        start: where the agent begins.
+        name: the agent's name.
+        site: the scenario.
+        travel: the agent's travel times, on the scenario's map or another.
 
     Raises:
         InputError: the task isn't a formula over the scenario's regions and the agent's actions.
         PlanningError: there is no plan.
     """
-    pose = (start.x_m, start.y_m, start.yaw_rad)
-    changed = {"task": task, "tasks": (), "automaton": None, "start": pose}
+    changed: dict[str, object] = {"start": (start.x_m, start.y_m, start.yaw_rad)}
+    if task is not None:
+        changed |= {"task": task, "tasks": (), "automaton": None}
     agent = site.scenario.agents[name].model_copy(update=changed)
     scenario = site.scenario.model_copy(update={"agents": {name: agent}})
     for finding in check_formulas(scenario):
         raise InputError(f"task: {finding.what}")
-    other = replace(site, scenario=scenario)
+    if travel.grid.location_at(start.x_m, start.y_m) is None:
+        raise PlanningError(f"the map has closed the start ({start.x_m!r}, {start.y_m!r})")
+    other = replace(site.on(travel.grid.avoiding({})), scenario=scenario)
     plan = local_plan(name, other, travel)
     avoided = avoided_regions(name, other, hard_formula(agent), start)
     for region in sorted(avoided - travel.grid.avoided.keys()):

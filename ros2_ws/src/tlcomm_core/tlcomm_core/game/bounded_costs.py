@@ -43,6 +43,16 @@ class BoundedCosts:
         ]
         self.earliest_s = max(0.0, *(float(since_s.min()) for since_s in self._since_s))
 
+    def times_s(self) -> NDArray[np.float64]:
+        """Return the arrivals that may be the communication time, ascending, fresh.
+
+        The first is ``earliest_s``.
+        """
+        arrivals_s = np.concatenate([since_s.ravel() for since_s in self._since_s])
+        later_s = arrivals_s[np.isfinite(arrivals_s) & (arrivals_s > self.earliest_s)]
+        times_s: NDArray[np.float64] = np.unique(np.append(later_s, self.earliest_s))
+        return times_s
+
     def at(self, latest_s: float) -> NDArray[np.float64]:
         """Return c_i(z; τ) for a bound τ, [N, Z], fresh; +inf where there is no candidate."""
         return np.array(

@@ -8,8 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from tlcomm_core.errors import LocalMisuseError
-from tlcomm_core.game.offer import MemberOffer, PlannedStop
+from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.problem import Candidates
 from tlcomm_core.geometry import Pose
 from tlcomm_core.workspace.travel import TravelTimes
@@ -40,20 +39,20 @@ def candidates(
     Returns:
         A row for each stop h but the last that has an admissible entry. An entry is admissible
         when z and the way back are reachable and the agent is there by the window's end less
-        the margin; too early is admissible, as an agent can wait.
-
-    Raises:
-        LocalMisuseError: a stop isn't in a free cell, or unreachable from the one before.
+        the margin; too early is admissible, as an agent can wait. None is if no way leads from
+        stop h to the next: an offer may have been made with a later map.
 
     Source: Section IV-B1 of the paper: t_{i,s_i} is when stop h is finished plus T_i(π^h, z), and
         δ_{i,s_i} = T_i(π^h, z) + T_i(z, π^{h+1}) − T_i(π^h, π^{h+1}), headings included.
     Cost: O(Z) for each stop once ``travel`` has cached its searches.
     """
     shape = (max(len(offer.stops) - 1, 0), len(travel.grid))
-    arrival_s, extra_s = np.empty(shape), np.empty(shape)
+    arrival_s, extra_s = np.full(shape, np.inf), np.full(shape, np.inf)
     for h, (stop, following) in enumerate(pairwise(offer.stops)):
-        pose = Pose(stop.x_m, stop.y_m, stop.yaw_rad)
-        detour = travel.detour(pose, _location(following, travel))
+        target = travel.grid.location_at(following.x_m, following.y_m)
+        if target is None or not travel.grid.leads(stop.x_m, stop.y_m, target):
+            continue
+        detour = travel.detour(Pose(stop.x_m, stop.y_m, stop.yaw_rad), target)
         arrival_s[h] = (departure_s + stop.finish_offset_s) + detour.there_s
         extra_s[h] = detour.extra_s
     admissible = (arrival_s < window_s[1] - margin_s) & np.isfinite(extra_s)
@@ -65,10 +64,3 @@ def candidates(
         arrival_s=np.where(admissible, arrival_s, np.inf)[kept],
         extra_s=np.where(admissible, extra_s, np.inf)[kept],
     )
-
-
-def _location(stop: PlannedStop, travel: TravelTimes) -> int:
-    location = travel.grid.location_at(stop.x_m, stop.y_m)
-    if location is None:
-        raise LocalMisuseError(f"stop {stop!r} isn't in a free cell")
-    return location

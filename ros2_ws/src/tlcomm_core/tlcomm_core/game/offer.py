@@ -57,6 +57,7 @@ class MemberOffer:
         angular_radps: its turn rate, ω.
         stops: its next steps, ascending; the last is there only as what follows its forerunner.
         avoided: regions that it never drives through, sorted.
+        map_ns: the time from which the map holds that all this was computed with.
     """
 
     agent: str
@@ -68,6 +69,7 @@ class MemberOffer:
     angular_radps: float
     stops: tuple[PlannedStop, ...]
     avoided: tuple[str, ...] = ()
+    map_ns: int = 0
 
 
 def next_stops(
@@ -84,21 +86,22 @@ def next_stops(
 
     Returns:
         Steps ``index``, ``index`` + 1, …, up to the first that isn't finished within the horizon;
-        at least two and at most ``MAX_STOPS``.
-
-    Raises:
-        LocalMisuseError: the pose isn't in a free cell, or a step can't be reached.
+        at least two and at most ``MAX_STOPS``. From the first that can't be reached on, the agent
+        waits where it is: no further such step is listed than two steps in all need.
 
     Source: Section IV-B1 of the paper, t_{i,h} for h ≥ l.
     """
     stops: list[PlannedStop] = []
     offset_s = 0.0
-    while len(stops) < _MIN_STOPS or (offset_s <= horizon_s and len(stops) < MAX_STOPS):
+    goes_on = True
+    while len(stops) < _MIN_STOPS or (goes_on and offset_s <= horizon_s and len(stops) < MAX_STOPS):
         task_index = index + len(stops)
         step = plan.step(task_index)
-        leg = travel.leg_to(pose, step.location)
-        pose = leg.arrival
-        offset_s += leg.duration_s + step.duration_s
+        goes_on = goes_on and travel.grid.leads(pose.x_m, pose.y_m, step.location)
+        if goes_on:
+            leg = travel.leg_to(pose, step.location)
+            pose = leg.arrival
+            offset_s += leg.duration_s + step.duration_s
         stops.append(PlannedStop(task_index, pose.x_m, pose.y_m, pose.yaw_rad, offset_s))
     return tuple(stops)
 

@@ -30,9 +30,14 @@ class Placement:
 def cheapest_placement(costs: NDArray[np.float64], neighbourhood: Neighbourhood) -> Placement:
     """Return the connected placement of least total cost.
 
-    Let g(S, z) be the least cost of a connected placement of the agents S with one of them at z.
-    A spanning tree of such a placement, rooted there, has a subtree that can be split off: so
-    g(S, z) = min over S = A ∪ B of g(A, z) + min over z' linked to z of g(B, z').
+    A spanning tree of a connected placement can be hung up by any agent, here by the last. With
+    g(S, z) the least cost of a subtree of the agents S whose top is at z, and h(S, z) that of
+    subtrees of S that together hang from somebody at z:
+
+        g(S, z) = min over i in S of c_i(z) + h(S − {i}, z)
+        h(S, z) = min over A ⊆ S of (min over z' linked to z of g(A, z')) + h(S − A, z)
+
+    where A is the subtree with the first agent of S, and h is 0 for nobody.
 
     Among equally cheap placements the same one is found wherever the costs are the same.
 
@@ -43,82 +48,110 @@ def cheapest_placement(costs: NDArray[np.float64], neighbourhood: Neighbourhood)
     Returns:
         The optimum; its cost is +inf, and its places mean nothing, if there is none.
 
-    Source: the recursion of Dreyfus and Wagner, "The Steiner problem in graphs" (1971), here with
-        costs at nodes and several agents at one place.
-    Cost: O(3^N·Z + 2^N·Z·D) time, O(2^N·Z) memory.
+    Source: after Dreyfus and Wagner, "The Steiner problem in graphs" (1971), here with costs at
+        nodes and several agents at one place.
+    Cost: O(3^(N−1)·Z + 2^N·Z·(N + D)) time, O(2^N·Z) memory.
     """
-    count = len(costs)
-    table = np.full((1 << count, costs.shape[1]), np.inf)
-    reached = np.full_like(table, np.inf)
-    table[1 << np.arange(count)] = costs
-    for layer in _layers(count):
-        for subset in layer.tolist():
-            if subset & (subset - 1):
-                table[subset] = _cheapest_split(table, reached, subset)
-        reached[layer] = neighbourhood.least(table[layer])
-    everybody = (1 << count) - 1
-    root = int(np.argmin(table[everybody]))
-    locations = [root] * count
-    cost = float(table[everybody, root])
+    programme = _Programme(costs, neighbourhood)
+    top = len(costs) - 1
+    everybody_else = (1 << top) - 1
+    totals = costs[top] + programme.hanging[everybody_else]
+    root = int(np.argmin(totals))
+    cost = float(totals[root])
+    locations = [root] * len(costs)
     if np.isfinite(cost):
-        _trace(table, reached, neighbourhood, everybody, root, locations)
+        programme.write_hanging(everybody_else, root, locations)
     return Placement(cost, tuple(locations))
 
 
-def _cheapest_split(
-    table: NDArray[np.float64], reached: NDArray[np.float64], subset: int
-) -> NDArray[np.float64]:
-    """Return the least of g(A, z) + min g(B, z') over all splits of a set, float[Z].
+class _Programme:
+    """The tables of g and h, by subsets (bit masks) of all agents but the last.
 
-    With an axis for each agent, the parts A are a view of the table, and what they leave is the
-    same view of the other one, backwards: nothing is copied before it is added. The empty part and
-    the whole are +inf as yet.
+    Attributes:
+        topped: float[2^(N−1), Z], g.
+        reached: float[2^(N−1), Z], the least of g over the neighbours of each place.
+        hanging: float[2^(N−1), Z], h.
     """
-    count = len(table).bit_length() - 1
-    members = [subset >> agent & 1 for agent in reversed(range(count))]
-    inside = tuple(slice(None) if is_member else 0 for is_member in members)
-    backwards = (slice(None, None, -1),) * sum(members)
-    shape = (2,) * count + table.shape[1:]
-    totals = table.reshape(shape)[inside] + reached.reshape(shape)[inside][backwards]
-    least: NDArray[np.float64] = totals.reshape(-1, table.shape[1]).min(axis=0)
-    return least
+
+    def __init__(self, costs: NDArray[np.float64], neighbourhood: Neighbourhood) -> None:
+        count = len(costs) - 1
+        self._costs = costs
+        self._neighbourhood = neighbourhood
+        self.hanging = np.zeros((1 << count, costs.shape[1]))
+        self.topped = np.empty_like(self.hanging)
+        self.reached = np.empty_like(self.hanging)
+        lattice = (2,) * count + costs.shape[1:]
+        reached, hanging = self.reached.reshape(lattice), self.hanging.reshape(lattice)
+        for subsets in _layers(count):
+            for subset in subsets:
+                members = _members(subset)
+                rests = [subset ^ (1 << agent) for agent in members]
+                self.topped[subset] = (costs[members] + self.hanging[rests]).min(axis=0)
+            layer = list(subsets)
+            self.reached[layer] = neighbourhood.least(self.topped[layer])
+            for subset in subsets:
+                # All splits at once: the subtrees A are a view, and what they leave is the same
+                # view backwards.
+                parts, rests_of_parts = _splits(count, subset)
+                splits = reached[parts] + hanging[rests_of_parts]
+                self.hanging[subset] = splits.reshape(-1, costs.shape[1]).min(axis=0)
+
+    def write_hanging(self, subset: int, place: int, locations: list[int]) -> None:
+        """Write the places of the subtrees of ``subset`` that hang from a place."""
+        while subset:
+            parts = _parts_with_first(subset)
+            rests = subset ^ parts
+            best = int(np.argmin(self.reached[parts, place] + self.hanging[rests, place]))
+            part = int(parts[best])
+            self._write_topped(
+                part, self._neighbourhood.cheapest(self.topped[part], place), locations
+            )
+            subset = int(rests[best])
+
+    def _write_topped(self, subset: int, place: int, locations: list[int]) -> None:
+        """Write the places of a subtree of ``subset`` with its top at a place."""
+        members = _members(subset)
+        rests = [subset ^ (1 << agent) for agent in members]
+        best = int(np.argmin(self._costs[members, place] + self.hanging[rests, place]))
+        locations[members[best]] = place
+        self.write_hanging(rests[best], place, locations)
 
 
 @cache
-def _layers(count: int) -> tuple[NDArray[np.intp], ...]:
-    """Return the subsets of each size from 1 on, as bit masks."""
-    subsets = np.arange(1 << count)
-    sizes = np.array([subset.bit_count() for subset in range(1 << count)])
-    return tuple(subsets[sizes == size] for size in range(1, count + 1))
+def _members(subset: int) -> list[int]:
+    return [agent for agent in range(subset.bit_length()) if subset >> agent & 1]
 
 
 @cache
-def _parts(subset: int) -> NDArray[np.intp]:
-    """Return all subsets of a set but itself and the empty one, as bit masks."""
-    parts = []
-    part = (subset - 1) & subset
-    while part:
-        parts.append(part)
-        part = (part - 1) & subset
+def _layers(count: int) -> tuple[tuple[int, ...], ...]:
+    """Return the subsets of each size from 1 on."""
+    return tuple(
+        tuple(subset for subset in range(1 << count) if subset.bit_count() == size)
+        for size in range(1, count + 1)
+    )
+
+
+@cache
+def _splits(count: int, subset: int) -> tuple[tuple[slice | int, ...], tuple[slice | int, ...]]:
+    """Return the indices of all parts of a set with its first member, and of what each leaves.
+
+    They are for tables with an axis for each of ``count`` agents, the last agent's first.
+    """
+    first = (subset & -subset).bit_length() - 1
+    parts: list[slice | int] = []
+    rests: list[slice | int] = []
+    for agent in reversed(range(count)):
+        is_free = bool(subset >> agent & 1) and agent != first
+        parts.append(slice(None) if is_free else int(agent == first))
+        rests.append(slice(None, None, -1) if is_free else 0)
+    return tuple(parts), tuple(rests)
+
+
+@cache
+def _parts_with_first(subset: int) -> NDArray[np.intp]:
+    """Return all subsets of a set with its first member, as bit masks; read-only."""
+    first = subset & -subset
+    parts = [part for part in range(1, subset + 1) if part & first and part & subset == part]
     masks = np.array(parts, dtype=np.intp)
     masks.setflags(write=False)
     return masks
-
-
-def _trace(
-    table: NDArray[np.float64],
-    reached: NDArray[np.float64],
-    neighbourhood: Neighbourhood,
-    subset: int,
-    place: int,
-    locations: list[int],
-) -> None:
-    """Write the places of the optimal placement of ``subset`` with one of them at ``place``."""
-    while subset & (subset - 1):
-        parts = _parts(subset)
-        part = int(parts[np.argmin(table[parts, place] + reached[subset ^ parts, place])])
-        rest = subset ^ part
-        onward = neighbourhood.cheapest(table[rest], place)
-        _trace(table, reached, neighbourhood, rest, onward, locations)
-        subset = part
-    locations[subset.bit_length() - 1] = place

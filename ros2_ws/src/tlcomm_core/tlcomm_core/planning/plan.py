@@ -4,7 +4,10 @@
 ``LocalPlan``  the lasso, addressed by one running index through prefix and suffix
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
 
 __all__ = ["LocalPlan", "PlanStep"]
 
@@ -15,7 +18,8 @@ class PlanStep:
 
     Attributes:
         region: region to be in.
-        location: the region's location (index into the grid's free cells).
+        location: the region's location (index into the grid's free cells); −1 if the map has
+            closed it since the plan was made.
         action: action performed there, or ``None`` for a_0: to have arrived is all.
         duration_s: time that the step takes once there (0 for a mere visit, the idle time for
             staying put without an action).
@@ -89,6 +93,18 @@ class LocalPlan:
         """The word that the plan reads: letters once, and letters for ever."""
         stem = (self.initial_label, *(step.label for step in self.prefix))
         return stem, tuple(step.label for step in self.suffix)
+
+    def relocated(self, numbers: NDArray[np.int32]) -> "LocalPlan":
+        """Return the plan on another map.
+
+        Args:
+            numbers: each location's number there, −1 if it is closed.
+        """
+        prefix, suffix = (
+            tuple(replace(step, location=int(numbers[step.location])) for step in steps)
+            for steps in (self.prefix, self.suffix)
+        )
+        return replace(self, prefix=prefix, suffix=suffix)
 
     def step(self, index: int) -> PlanStep:
         """Return step number ``index`` ≥ 0, counted on through every pass of the suffix."""

@@ -156,6 +156,11 @@ class Negotiation:
         return Phase.GATHERING if self._improving is None else Phase.IMPROVING
 
     @property
+    def is_alone(self) -> bool:
+        """Whether no other member has been heard of."""
+        return len(self._gathering.offers) == 1
+
+    @property
     def meeting_s(self) -> float | None:
         """t_c of the meeting under way, once the whole team is known to be present."""
         return self._meeting_s

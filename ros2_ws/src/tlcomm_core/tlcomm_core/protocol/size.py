@@ -89,6 +89,7 @@ def _lay_offer(layout: _Layout, offer: MemberOffer) -> None:
     layout.text(offer.agent)
     layout.numbers(_DOUBLE, 7)
     layout.texts(offer.avoided)
+    layout.numbers(_DOUBLE)
     layout.column(_INT, len(offer.stops))
     for _ in range(4):
         layout.column(_DOUBLE, len(offer.stops))

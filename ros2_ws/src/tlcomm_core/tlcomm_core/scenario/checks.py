@@ -4,7 +4,8 @@
 ``check_formulas``  those of its tasks' texts alone
 """
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -18,9 +19,9 @@ from tlcomm_core.scenario.document import Place
 from tlcomm_core.scenario.finding import Finding, did_you_mean
 from tlcomm_core.scenario.meetings import check_meetings
 from tlcomm_core.scenario.model import Agent, Scenario, Workspace
-from tlcomm_core.scenario.site import grid_of, region_location
+from tlcomm_core.scenario.site import grid_of, later_grids, region_location
 from tlcomm_core.scenario.task import read_automaton
-from tlcomm_core.workspace.grid import Grid
+from tlcomm_core.workspace.grid import Box, Grid
 from tlcomm_core.workspace.sight import sightlines
 
 __all__ = ["MAX_CELLS", "check", "check_formulas"]
@@ -38,11 +39,13 @@ def check(scenario: Scenario) -> list[Finding]:
     Cost: O(regions · Z + agents²).
     """
     findings = [*_timing(scenario), *_extent(scenario.workspace), *_names(scenario)]
+    findings += _changes(scenario.workspace)
     if findings:
         return findings
     findings += check_meetings(scenario)
     grid = grid_of(scenario.workspace)
     findings += _regions(scenario.workspace, grid)
+    findings += _closed_regions(scenario.workspace)
     findings += _starts(scenario, grid)
     findings += check_conditions(scenario)
     findings += _tasks(scenario)
@@ -94,12 +97,28 @@ def _extent(workspace: Workspace) -> Iterator[Finding]:
             f"{workspace.cell_m!r} makes {columns:.6g} x {rows:.6g} cells of size_m;"
             f" expected at least 1 x 1 and at most {MAX_CELLS} in all",
         )
-    for index, (x_min, y_min, x_max, y_max) in enumerate(workspace.obstacles_m):
+    yield from _boxes(("workspace", "obstacles_m"), workspace.obstacles_m)
+
+
+def _boxes(place: Place, boxes: Sequence[Box]) -> Iterator[Finding]:
+    for index, (x_min, y_min, x_max, y_max) in enumerate(boxes):
         if x_min >= x_max or y_min >= y_max:
             yield Finding(
-                ("workspace", "obstacles_m", index),
+                (*place, index),
                 f"{[x_min, y_min, x_max, y_max]!r} is no box;"
                 " expected x_min, y_min, x_max, y_max with min < max",
+            )
+
+
+def _changes(workspace: Workspace) -> Iterator[Finding]:
+    for index, change in enumerate(workspace.changes):
+        yield from _boxes(("workspace", "changes", index, "obstacles_m"), change.obstacles_m)
+    for index, (change, following) in enumerate(pairwise(workspace.changes), start=1):
+        if following.at_s <= change.at_s:
+            yield Finding(
+                ("workspace", "changes", index, "at_s"),
+                f"{following.at_s!r} isn't later than the change before ({change.at_s!r});"
+                " expected ascending times",
             )
 
 
@@ -139,6 +158,18 @@ def _regions(workspace: Workspace, grid: Grid) -> Iterator[Finding]:
                 f"no free cell's centre lies within {region.radius_m!r} m of"
                 f" {_point(region.at_m)}; move it or make radius_m larger",
             )
+
+
+def _closed_regions(workspace: Workspace) -> Iterator[Finding]:
+    """Find changes that leave a region nowhere to be visited."""
+    for index, grid in enumerate(later_grids(workspace)):
+        for name, region in workspace.regions.items():
+            if region_location(grid, region) is None:
+                yield Finding(
+                    ("workspace", "changes", index, "obstacles_m"),
+                    f"from {workspace.changes[index].at_s!r} s on no free cell's centre lies within"
+                    f" region {name!r}; leave it one",
+                )
 
 
 def _starts(scenario: Scenario, grid: Grid) -> Iterator[Finding]:

@@ -46,8 +46,8 @@ _MAP_REPLACES: Final = ("size_m", "origin_m", "obstacles_m")
 def load_scenario(path: str | Path) -> Scenario:
     """Read and check a scenario file.
 
-    A ``workspace.map`` is read too and becomes size, origin and obstacles; the file that an
-    agent's ``automaton`` names becomes its text.
+    A ``workspace.map`` is read too and becomes size, origin and obstacles, also after changes; the
+    file that an agent's ``automaton`` names becomes its text.
 
     Raises:
         ScenarioError: the file can't be read, or isn't a scenario that can be run.
@@ -120,12 +120,19 @@ def _in_file(finding: Finding, files: Mapping[Place, Path]) -> Finding:
 
 
 def _oversize(scenario: Scenario) -> Iterator[Finding]:
-    """Find automata that make the scenario, written out, too large to be read again."""
-    own = [name for name, agent in scenario.agents.items() if agent.automaton is not None]
-    size = len(dumps(scenario).encode()) if own else 0
+    """Find what other files hold and makes the scenario, written out, too large to be read."""
+    sources: list[tuple[Place, str]] = [
+        (("agents", name, "automaton"), "automata")
+        for name, agent in scenario.agents.items()
+        if agent.automaton is not None
+    ]
+    if scenario.workspace.changes:
+        sources.append((("workspace", "changes"), "changes of the map"))
+    size = len(dumps(scenario).encode()) if sources else 0
     if size > MAX_BYTES:
-        what = f"with its automata the scenario has {size} bytes; expected at most {MAX_BYTES}"
-        yield Finding(("agents", own[-1], "automaton"), what)
+        place, what = sources[-1]
+        what = f"with its {what} the scenario has {size} bytes; expected at most {MAX_BYTES}"
+        yield Finding(place, what)
 
 
 def _read(path: Path, name: str) -> bytes:
@@ -152,9 +159,20 @@ def _inline_map(document: Document, name: str, folder: Path) -> None:
         what = f"found {_shown(path)}; expected the path of a map's YAML"
         _raise_first([Finding(place, what)], document, name)
         return
-    workspace.update(_map_fields(folder / path))
+    fields = _map_fields(folder / path)
+    _add_to_changes(workspace, fields["obstacles_m"])
+    workspace.update(fields)
     for field in _MAP_REPLACES:
         document.lines["workspace", field] = document.line_of(place)
+
+
+def _add_to_changes(workspace: dict[str, Node], boxes: Node) -> None:
+    """Let what the map shows stay when obstacles change."""
+    changes = workspace.get("changes")
+    for change in changes if isinstance(changes, list) else ():
+        own = change.get("obstacles_m") if isinstance(change, dict) else None
+        if isinstance(change, dict) and isinstance(own, list) and isinstance(boxes, list):
+            change["obstacles_m"] = [*own, *boxes]
 
 
 def _map_fields(path: Path) -> dict[str, Node]:
@@ -226,7 +244,9 @@ def _fields(root: type[BaseModel], place: Place) -> frozenset[str]:
     for part in place:
         is_model = isinstance(section, type) and issubclass(section, BaseModel)
         # Between sections there are only mappings from names to sections.
-        section = section.model_fields[part].annotation if is_model else get_args(section)[-1]
+        # A tuple's items are all alike: tuple[Change, ...].
+        inner = [kind for kind in get_args(section) if kind is not Ellipsis]
+        section = section.model_fields[part].annotation if is_model else inner[-1]
         if section == AnyAction:
             section = Action
         if isinstance(section, UnionType):

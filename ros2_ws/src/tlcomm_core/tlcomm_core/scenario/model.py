@@ -1,8 +1,8 @@
 """The scenario's fields, their types and ranges, one class per section of the file.
 
-``Scenario`` holds ``Workspace`` (with ``Region``), ``Communication``, ``Drive``, ``Noise``,
-``Faults``, ``Radio``, ``Action`` and ``Agent`` (with ``DriveOverride`` and ``Soft``). What fields
-mean together is checked in ``checks``.
+``Scenario`` holds ``Workspace`` (with ``Region`` and ``Change``), ``Communication``, ``Drive``,
+``Noise``, ``Faults``, ``Radio``, ``Action`` and ``Agent`` (with ``DriveOverride`` and ``Soft``).
+What fields mean together is checked in ``checks``.
 """
 
 from typing import Annotated, Final
@@ -17,6 +17,7 @@ __all__ = [
     "Action",
     "Agent",
     "AnyAction",
+    "Change",
     "Communication",
     "Drive",
     "DriveOverride",
@@ -32,6 +33,7 @@ __all__ = [
 MAX_AGENTS: Final = 1000
 MAX_OBSTACLES: Final = 5000
 MAX_REGIONS: Final = 1000
+MAX_CHANGES: Final = 100
 MAX_TASKS: Final = 100
 
 # Far beyond any plant, and small enough that no product of two overflows.
@@ -45,6 +47,9 @@ NotNegative = Annotated[float, Field(ge=0.0, le=_HUGE)]
 # A day and more for one atom is beyond any detour, and sums of such prices are exact.
 Price = Annotated[float, Field(ge=0.0, le=1e5)]
 Share = Annotated[float, Field(ge=0.0, le=1.0)]
+Obstacles = Annotated[
+    tuple[tuple[Number, Number, Number, Number], ...], Field(max_length=MAX_OBSTACLES)
+]
 # Valid as a ROS namespace token and as an atom.
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*$", max_length=60)]
 Title = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$", max_length=60)]
@@ -61,16 +66,22 @@ class Region(_Section):
     radius_m: Positive
 
 
+class Change(_Section):
+    """Obstacles that from a time on take the place of those before."""
+
+    at_s: Positive
+    obstacles_m: Obstacles
+
+
 class Workspace(_Section):
-    """The rectangle, its cells, obstacles (x_min, y_min, x_max, y_max) and regions."""
+    """The rectangle, its cells, obstacles (x_min, y_min, x_max, y_max), regions and changes."""
 
     size_m: tuple[Positive, Positive]
     cell_m: Positive
     origin_m: tuple[Number, Number] = (0.0, 0.0)
-    obstacles_m: Annotated[
-        tuple[tuple[Number, Number, Number, Number], ...], Field(max_length=MAX_OBSTACLES)
-    ] = ()
+    obstacles_m: Obstacles = ()
     regions: Annotated[dict[Name, Region], Field(min_length=1, max_length=MAX_REGIONS)]
+    changes: Annotated[tuple[Change, ...], Field(max_length=MAX_CHANGES)] = ()
 
 
 class Communication(_Section):

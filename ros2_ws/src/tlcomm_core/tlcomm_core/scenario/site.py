@@ -2,10 +2,11 @@
 
 ``Site``             the grid, where the regions are, and each agent's abilities
 ``grid_of``          the grid of a workspace
+``later_grids``      those that its changes make
 ``region_location``  the location at which a region is visited
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Self
@@ -15,10 +16,10 @@ from numpy.typing import NDArray
 
 from tlcomm_core.geometry import Pose
 from tlcomm_core.scenario.model import Region, Scenario, Workspace
-from tlcomm_core.workspace.grid import Disc, Grid
+from tlcomm_core.workspace.grid import Box, Disc, Grid
 from tlcomm_core.workspace.travel import Motion
 
-__all__ = ["Site", "grid_of", "region_location"]
+__all__ = ["Site", "grid_of", "later_grids", "region_location"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +29,7 @@ class Site:
     Attributes:
         scenario: as loaded.
         grid: cells and locations.
-        region_location: the location at which each region is visited.
+        region_location: the location at which each region is visited, of those that have one.
         region_discs: each region's middle and radius (x, y, r) in metres.
         regions_beside: for each region the others whose discs overlap with its own.
     """
@@ -43,15 +44,22 @@ class Site:
     @classmethod
     def from_scenario(cls, scenario: Scenario) -> Self:
         """Derive everything from a scenario that passed its checks. Cost: O(regions · Z)."""
-        grid = grid_of(scenario.workspace)
+        return cls._on(grid_of(scenario.workspace), scenario)
+
+    def on(self, grid: Grid) -> Self:
+        """Return what follows if the map is another: regions that it closes have no location."""
+        return self._on(grid, self.scenario)
+
+    @classmethod
+    def _on(cls, grid: Grid, scenario: Scenario) -> Self:
         locations: dict[str, int] = {}
         members: list[tuple[str, NDArray[np.intp]]] = []
-        for name, region in scenario.workspace.regions.items():
-            location = region_location(grid, region)
-            assert location is not None, "checks have refused regions without a free centre"
-            locations[name] = location
-            members.append((name, grid.locations_within(*region.at_m, region.radius_m)))
         regions = scenario.workspace.regions
+        for name, region in regions.items():
+            location = region_location(grid, region)
+            if location is not None:
+                locations[name] = location
+            members.append((name, grid.locations_within(*region.at_m, region.radius_m)))
         discs = {name: (*region.at_m, region.radius_m) for name, region in regions.items()}
         return cls(
             scenario=scenario,
@@ -96,7 +104,16 @@ class Site:
 
 def grid_of(workspace: Workspace) -> Grid:
     """Return the grid of a workspace."""
-    return Grid(workspace.size_m, workspace.cell_m, workspace.obstacles_m, workspace.origin_m)
+    return _grid(workspace, workspace.obstacles_m)
+
+
+def later_grids(workspace: Workspace) -> tuple[Grid, ...]:
+    """Return the grid that each change of a workspace makes. Cost: O(changes · Z)."""
+    return tuple(_grid(workspace, change.obstacles_m) for change in workspace.changes)
+
+
+def _grid(workspace: Workspace, boxes: Sequence[Box]) -> Grid:
+    return Grid(workspace.size_m, workspace.cell_m, boxes, workspace.origin_m)
 
 
 def region_location(grid: Grid, region: Region) -> int | None:

@@ -6,8 +6,13 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Final
+from weakref import WeakValueDictionary
+
+import numpy as np
+from numpy.typing import NDArray
 
 from tlcomm_core.workspace.grid import Disc, Grid
+from tlcomm_core.workspace.map_image import OccupancyMap
 from tlcomm_core.workspace.travel import Motion, TravelTimes
 
 __all__ = ["Atlas"]
@@ -29,6 +34,28 @@ class Atlas:
         self._regions: Final = regions
         self._grids: dict[frozenset[str], Grid] = {frozenset(): grid}
         self._travel: dict[tuple[Motion, frozenset[str]], TravelTimes] = {}
+        # All that maps of the same cells have in use, this one among them, by what is free.
+        self._family: WeakValueDictionary[bytes, Atlas] = WeakValueDictionary()
+        self._family[grid.free.tobytes()] = self
+
+    def on(self, free: NDArray[np.bool_]) -> "Atlas":
+        """Return the atlas of the map on which other cells are free; what isn't is an obstacle.
+
+        The same object for equal cells, for all who ask any of its kind, as long as one is in use.
+
+        Args:
+            free: bool[rows, columns].
+        """
+        key = free.tobytes()
+        atlas = self._family.get(key)
+        if atlas is None:
+            grid = self.grid
+            boxes = OccupancyMap(~free, grid.cell_m, grid.origin_m).boxes()
+            other = Grid(grid.size_m, grid.cell_m, boxes, grid.origin_m)
+            atlas = Atlas(other, self._regions)
+            atlas._family = self._family
+            self._family[key] = atlas
+        return atlas
 
     def knows(self, regions: frozenset[str]) -> bool:
         """Return whether these are regions that can be avoided."""

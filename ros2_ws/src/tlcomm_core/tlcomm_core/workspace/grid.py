@@ -9,6 +9,7 @@
 import math
 from collections.abc import Mapping, Sequence
 from functools import cached_property
+from itertools import pairwise
 from types import MappingProxyType
 from typing import Final, TypeVar
 
@@ -104,7 +105,7 @@ class Grid:
             return None
         row = min(int((y_m - self.origin_m[1]) / self.cell_m), self.shape[0] - 1)
         column = min(int((x_m - self.origin_m[0]) / self.cell_m), self.shape[1] - 1)
-        index = int(self._index[row, column])
+        index = int(self.numbers[row, column])
         return None if index < 0 else index
 
     def locations_within(self, x_m: float, y_m: float, radius_m: float) -> NDArray[np.intp]:
@@ -128,10 +129,45 @@ class Grid:
         """
         return Grid(self.size_m, self.cell_m, self.boxes, self.origin_m, avoided)
 
+    def numbers_in(self, other: "Grid") -> NDArray[np.int32]:
+        """Return each location's number in a grid of the same cells, int32[Z]; -1 if closed."""
+        numbers: NDArray[np.int32] = other.numbers[self.free]
+        return numbers
+
     def near(self, location: int, range_m: float) -> NDArray[np.bool_]:
         """Tell for every location whether it is within ``range_m`` of ``location``. Cost: O(Z)."""
         x_m, y_m = self.locations_m[location]
         return self._distances_m(x_m, y_m) <= range_m
+
+    def leads(self, x_m: float, y_m: float, location: int) -> bool:
+        """Tell whether moves lead from a point to a location; none do out of a closed cell."""
+        here = self.location_at(x_m, y_m)
+        if here is None or location < 0:
+            return False
+        return bool(self.components[here] == self.components[location])
+
+    def is_clear(self, points_m: Sequence[tuple[float, float]]) -> bool:
+        """Tell whether straights along points on the grid touch no closed cell, nor its corners."""
+        return all(
+            self._is_clear(np.array(point_m), np.array(following_m))
+            for point_m, following_m in pairwise(points_m)
+        )
+
+    def _is_clear(self, start_m: NDArray[np.float64], end_m: NDArray[np.float64]) -> bool:
+        low_m, high_m = np.minimum(start_m, end_m), np.maximum(start_m, end_m)
+        around = self._covered(np.concatenate((low_m - self.cell_m, high_m + self.cell_m)))
+        rows, columns = np.nonzero(~self.free[around])
+        corners = np.column_stack((columns + around[1].start, rows + around[0].start))
+        # As seen from the start, in cells; touching counts although coordinates are rounded.
+        low = corners - (start_m - self.origin_m) / self.cell_m - _ROUNDING_SHARE
+        high = low + 1.0 + 2.0 * _ROUNDING_SHARE
+        step = (end_m - start_m) / self.cell_m
+        # Along an axis that it doesn't move along: ±inf, as slabs need it.
+        with np.errstate(divide="ignore", invalid="ignore"):
+            bounds = np.stack((low / step, high / step))
+        enters = np.maximum(bounds.min(axis=0).max(axis=1), 0.0)
+        leaves = np.minimum(bounds.max(axis=0).min(axis=1), 1.0)
+        return not bool((enters <= leaves).any())
 
     @cached_property
     def moves(self) -> NDArray[np.int32]:
@@ -141,7 +177,7 @@ class Grid:
         Read-only.
         """
         padded = np.full((self.shape[0] + 2, self.shape[1] + 2), -1, dtype=np.int32)
-        padded[1:-1, 1:-1] = self._index
+        padded[1:-1, 1:-1] = self.numbers
         closed = [location for own in self.avoided.values() for location in own.tolist()]
         padded[np.isin(padded, closed)] = -1
         rows, columns = (indices + 1 for indices in np.nonzero(self.free))
@@ -164,11 +200,11 @@ class Grid:
         return _read_only(np.asarray(labels, dtype=np.int32))
 
     @cached_property
-    def _index(self) -> NDArray[np.int32]:
-        """Location of each cell, int32[rows, columns]; -1 where closed."""
+    def numbers(self) -> NDArray[np.int32]:
+        """Location of each cell, int32[rows, columns]; -1 where closed. Read-only."""
         index = np.full(self.shape, -1, dtype=np.int32)
         index[self.free] = np.arange(len(self), dtype=np.int32)
-        return index
+        return _read_only(index)
 
     def _distances_m(self, x_m: float, y_m: float) -> NDArray[np.float64]:
         distances_m: NDArray[np.float64] = np.hypot(

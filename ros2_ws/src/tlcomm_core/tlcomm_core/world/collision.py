@@ -48,6 +48,11 @@ class Obstacles:
         """Tell whether a point is inside a box or outside the workspace; borders don't count."""
         return bool(self._inside(np.array((x_m, y_m)), np.arange(self._count)).any())
 
+    def touch(self, x_m: float, y_m: float) -> bool:
+        """Tell whether a point is inside a box, or no more than a nanometre outside."""
+        near = np.arange(self._count, 2 * self._count)
+        return bool(self._inside(np.array((x_m, y_m)), near).any())
+
     def contact_ns(self, course: Course, from_ns: int, until_ns: int) -> int | None:
         """Return when the course must stop for not entering a box.
 

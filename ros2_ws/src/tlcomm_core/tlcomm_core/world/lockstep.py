@@ -8,9 +8,10 @@
 Each agent answers a tick with the time of its own next need, and with how many team messages it
 has sent so far. So the least of all needs, the world's own next change and the next arrival of a
 message is the next instant at which anything can happen: time goes there, and only those whose
-time has come are ticked. A message sent at t arrives at t + latency, so what happens at one
-instant can't depend on the order in which agents act at it. Hence a run is a function of the
-scenario and the seed, whatever the machine's load, in one process and over ROS alike.
+time has come are ticked; all are when the map changes. A message sent at t arrives at t + latency,
+so what happens at one instant can't depend on the order in which agents act at it. Hence a run is a
+function of the scenario and the seed, whatever the machine's load, in one process and over ROS
+alike.
 
 Source: conservative synchronisation with lookahead, K. M. Chandy and J. Misra, "Distributed
     simulation: a case study in design and verification of distributed programs", IEEE Trans.
@@ -22,7 +23,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from tlcomm_core.world.observation import Observation
+from tlcomm_core.world.observation import Observation, Occupancy
 from tlcomm_core.world.world import World
 
 __all__ = ["LockStep", "Reply", "Step", "StopRule"]
@@ -124,6 +125,8 @@ class LockStep:
         observations = self._world.advance_to(time_ns)
         self._time_ns = time_ns
         listeners = self._arrive(time_ns)
+        if any(isinstance(seen, Occupancy) for seen in observations):
+            listeners = frozenset(self._agents)
         return Step(
             time_ns=time_ns,
             observations=observations,

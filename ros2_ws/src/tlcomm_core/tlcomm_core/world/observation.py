@@ -2,14 +2,16 @@
 
 ``Odometry``      one agent's pose and velocity
 ``Connectivity``  who hears whom
-``Observation``   either
+``Occupancy``     the map from a time on
+``Observation``   any of them
 """
 
 from dataclasses import dataclass
 
 from tlcomm_core.geometry import Pose
+from tlcomm_core.workspace.grid import Grid
 
-__all__ = ["Connectivity", "Observation", "Odometry"]
+__all__ = ["Connectivity", "Observation", "Occupancy", "Odometry"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,4 +41,12 @@ class Connectivity:
     distances_m: tuple[float, ...] = ()
 
 
-Observation = Odometry | Connectivity
+@dataclass(frozen=True, slots=True)
+class Occupancy:
+    """Which cells are free from ``stamp_ns`` on."""
+
+    stamp_ns: int
+    grid: Grid
+
+
+Observation = Odometry | Connectivity | Occupancy

@@ -64,6 +64,7 @@ class Vehicle:
         self.course = Course(0, body.start)
         self.collisions = 0
         self._obstacles = obstacles
+        self._coming: Obstacles | None = None
         self._heartbeat_ns = 0
         self._contact_ns: int | None = None
         self._since_contact_m = math.inf
@@ -83,6 +84,7 @@ class Vehicle:
         """
         if self._has_velocity(linear_mps, angular_radps):
             return False
+        self._settle(now_ns)
         course = self._course_from(now_ns, linear_mps, angular_radps)
         contact_ns = self._obstacles.contact_ns(course, now_ns, now_ns + _MOVING_HEARTBEAT_NS)
         if contact_ns is not None and _way_m(course, contact_ns) < _TOUCH_M:
@@ -91,6 +93,17 @@ class Vehicle:
             return changed
         self._adopt(course, contact_ns)
         return True
+
+    def surround(self, obstacles: Obstacles, now_ns: int) -> None:
+        """Put other obstacles round the body.
+
+        One in whose place an obstacle appears isn't held by it: only what was there before stops
+        it, until a new command or its odometry's time finds it outside all that is there now.
+        """
+        self._coming = obstacles
+        pose = self.course.pose_at(now_ns)
+        if not obstacles.contain(pose.x_m, pose.y_m):
+            self._heed(obstacles, now_ns)
 
     def advance_to(self, now_ns: int) -> bool:
         """Stop if contact is made now.
@@ -113,10 +126,23 @@ class Vehicle:
         """Return the odometry that goes out now, and set the time of the next one."""
         period_ns = _MOVING_HEARTBEAT_NS if self.course.moving else _RESTING_HEARTBEAT_NS
         self._heartbeat_ns = now_ns + period_ns
+        self._settle(now_ns)
         if self.course.curved and self.course.anchor_ns < now_ns:
             until_ns = self._heartbeat_ns
             self._contact_ns = self._obstacles.contact_ns(self.course, now_ns, until_ns)
         return self.odometry(now_ns)
+
+    def _settle(self, now_ns: int) -> None:
+        """Heed the obstacles that have come round the body, once it touches none of them."""
+        pose = self.course.pose_at(now_ns)
+        # Where two of them meet it is inside neither.
+        if self._coming is not None and not self._coming.touch(pose.x_m, pose.y_m):
+            self._heed(self._coming, now_ns)
+
+    def _heed(self, obstacles: Obstacles, now_ns: int) -> None:
+        self._obstacles, self._coming = obstacles, None
+        until_ns = max(self._heartbeat_ns, now_ns)
+        self._contact_ns = obstacles.contact_ns(self.course, now_ns, until_ns)
 
     def _stop(self, now_ns: int) -> None:
         if self.course.moving:

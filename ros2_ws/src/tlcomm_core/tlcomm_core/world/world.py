@@ -6,6 +6,7 @@
 """
 
 import math
+from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -18,7 +19,7 @@ from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.workspace.grid import Grid
 from tlcomm_core.world.collision import Obstacles
 from tlcomm_core.world.forecast import Forecast
-from tlcomm_core.world.observation import Connectivity, Observation, Odometry
+from tlcomm_core.world.observation import Connectivity, Observation, Occupancy, Odometry
 from tlcomm_core.world.radio import distances_m, edges, is_connected, neighbours, pair_indices
 from tlcomm_core.world.reach import Reach
 from tlcomm_core.world.vehicle import Body, Vehicle
@@ -43,7 +44,7 @@ class World:
     show, and ``advance_to`` goes there or to any time before. What is seen depends on the commands
     and their times alone, not on the stops made in between, to the bit.
 
-    Observations at one time come in the order: odometry by agents, then connectivity.
+    Observations at one time come in the order: map, odometry by agents, connectivity.
     """
 
     def __init__(
@@ -54,6 +55,7 @@ class World:
         noise: Noise,
         rng: np.random.Generator,
         *,
+        changes: Sequence[tuple[int, Grid]] = (),
         line_of_sight: bool = False,
     ) -> None:
         """Put all bodies at rest at their starts, at t = 0.
@@ -64,6 +66,7 @@ class World:
             range_m: R.
             noise: of the actuation.
             rng: drawn from at each command, if there is noise.
+            changes: times (ns), ascending, and the workspaces that begin then, of equal cells.
             line_of_sight: whether obstacles keep bodies from hearing each other.
 
         Raises:
@@ -74,9 +77,11 @@ class World:
         self._vehicles: Final = tuple(Vehicle(body, obstacles) for body in bodies)
         self._bodies: Final = {body.name: index for index, body in enumerate(bodies)}
         self._limits: Final = tuple((body.linear_mps, body.angular_radps) for body in bodies)
-        self._reach: Final = Reach(range_m, grid if line_of_sight else None)
+        self._line_of_sight: Final = line_of_sight
+        self._reach = Reach(range_m, grid if line_of_sight else None)
         self._noise: Final = noise
         self._rng: Final = rng
+        self._maps: Final = deque(((0, grid), *changes))
         self._refused = dict.fromkeys(self._bodies, 0)
         self._connectivity_due_ns = 0
         self._next_ns: int | None = None
@@ -99,11 +104,12 @@ class World:
     def next_change_ns(self) -> int:
         """Return the earliest time from now on at which the world has something to show.
 
-        That is a link change, a stop at an obstacle, or a heartbeat, due within a second.
+        That is a link change, a stop at an obstacle, a change of the map, or a heartbeat, due
+        within a second.
         """
         if self._next_ns is None:
             due_ns = min(vehicle.due_ns for vehicle in self._vehicles)
-            due_ns = min(due_ns, self._connectivity_due_ns)
+            due_ns = min(due_ns, self._connectivity_due_ns, *(time_ns for time_ns, _ in self._maps))
             change = self._looked_ahead().until(due_ns)
             self._next_ns = due_ns if change is None else change.time_ns
         return self._next_ns
@@ -127,7 +133,9 @@ class World:
         change = self._looked_ahead().until(time_ns)
         self.now_ns = time_ns
         self._next_ns = None
-        seen: list[Observation] = []
+        seen: list[Observation] = [*self._next_map()]
+        if seen:
+            change = self._looked_ahead().until(time_ns)
         for vehicle in self._vehicles:
             if vehicle.due_ns <= time_ns:
                 if vehicle.advance_to(time_ns):
@@ -204,6 +212,19 @@ class World:
             for indices in neighbours(count, self._edges)
         )
         self._forget_forecast()
+
+    def _next_map(self) -> tuple[Occupancy, ...]:
+        """Let the map change, if it is time to; return what that shows."""
+        if not self._maps or self._maps[0][0] > self.now_ns:
+            return ()
+        _, grid = self._maps.popleft()
+        obstacles = Obstacles(grid)
+        for vehicle in self._vehicles:
+            vehicle.surround(obstacles, self.now_ns)
+        if self._line_of_sight:
+            self._reach = Reach(self._reach.range_m, grid)
+            self._forget_forecast()
+        return (Occupancy(self.now_ns, grid),)
 
     def _report_connectivity(self) -> Connectivity:
         self._connectivity_due_ns = self.now_ns + _CONNECTIVITY_HEARTBEAT_NS

@@ -75,6 +75,8 @@ def audit_task(
     if any(record.event.kind is TaskEventKind.TASK_CHANGED for record in events):
         # What the scenario says isn't what it did.
         return TaskFinding(agent, len(claimed_s), None, None, None, None, seen)
+    # A plan that begins anew claims what its own steps satisfy, not what all steps do.
+    anew_s = min(_times_s(events, TaskEventKind.PLAN_CHANGED), default=math.inf)
     course = _course(scenario, agent, events, track)
     gap = course.longest_gap(end_s)
     settled, satisfied_s = course.progress.settled, course.satisfied_s
@@ -88,7 +90,7 @@ def audit_task(
         violations=(
             *seen,
             *_violated(agent, course),
-            *_unfounded(agent, claimed_s, satisfied_s),
+            *_unfounded(agent, claimed_s, satisfied_s, anew_s),
             *_neglected(scenario, agent, events, course.recurring, gap),
         ),
     )
@@ -204,11 +206,14 @@ def _hasty(scenario: Scenario, agent: str, events: Sequence[TaskRecord]) -> Iter
 
 
 def _unfounded(
-    agent: str, claimed_s: Sequence[float], satisfied_s: Sequence[float] | None
+    agent: str, claimed_s: Sequence[float], satisfied_s: Sequence[float] | None, until_s: float
 ) -> Iterator[str]:
-    """Say where claimed and recomputed satisfactions part, if those are known."""
+    """Say where claimed and recomputed satisfactions part up to a time, if those are known."""
     if satisfied_s is None:
         return
+    claimed_s, satisfied_s = (
+        [time_s for time_s in times_s if time_s <= until_s] for times_s in (claimed_s, satisfied_s)
+    )
     for claim_s, truth_s in zip(claimed_s, satisfied_s, strict=False):
         if abs(claim_s - truth_s) > _TIME_SLACK_S:
             yield (

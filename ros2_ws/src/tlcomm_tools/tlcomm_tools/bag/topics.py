@@ -49,6 +49,7 @@ def recorded_topics(agents: Iterable[str]) -> tuple[Topic, ...]:
     own = [
         Topic("/clock", "rosgraph_msgs/msg/Clock"),
         Topic("/connectivity", "tlcomm_msgs/msg/Connectivity"),
+        Topic("/map", "nav_msgs/msg/OccupancyGrid", latched=True),
     ]
     return (
         *own,

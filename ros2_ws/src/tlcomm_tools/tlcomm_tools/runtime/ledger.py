@@ -10,7 +10,7 @@ from tlcomm_tools.bag.topics import Topic
 
 __all__ = ["Expected", "Ledger"]
 
-_WORLD = ("odometry", "connectivity", "clock")
+_WORLD = ("odometry", "connectivity", "clock", "map")
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,13 +21,20 @@ class Expected:
         odometry: by the world, for all agents together.
         connectivity: by the world.
         clock: by the world.
+        maps: by the world.
         agents: by each agent, on all its recorded topics together.
     """
 
     odometry: int
     connectivity: int
     clock: int
+    maps: int
     agents: tuple[int, ...]
+
+    @property
+    def counts(self) -> tuple[int, ...]:
+        """All of them, in the order of the fields."""
+        return (self.odometry, self.connectivity, self.clock, self.maps, *self.agents)
 
 
 class Ledger:
@@ -50,7 +57,7 @@ class Ledger:
 
     def is_complete(self, expected: Expected) -> bool:
         """Whether everything that was published has arrived."""
-        counts = (expected.odometry, expected.connectivity, expected.clock, *expected.agents)
+        counts = expected.counts
         return all(
             received >= count
             for received, count in zip(self._received.values(), counts, strict=True)
@@ -58,7 +65,7 @@ class Ledger:
 
     def describe_missing(self, expected: Expected) -> str:
         """Say what hasn't arrived."""
-        counts = (expected.odometry, expected.connectivity, expected.clock, *expected.agents)
+        counts = expected.counts
         return ", ".join(
             f"{count - self._received[name]} of {name}"
             for name, count in zip(self._names, counts, strict=True)

@@ -246,6 +246,7 @@ def _expected(tick: Tick) -> Expected:
         odometry=tick.odometry_count,
         connectivity=tick.connectivity_count,
         clock=tick.clock_count,
+        maps=tick.map_count,
         agents=tuple(tick.agent_counts),
     )
 
