@@ -194,6 +194,21 @@ def test_a_missing_strategy_fails() -> None:
     assert document(records)["verdict"] == ["round 2: not held by west"]
 
 
+def test_who_says_that_it_is_in_doubt_needs_no_strategy() -> None:
+    """An agent that left without the others' confirmations of that very round holds nothing, which
+    fails nothing.
+    """
+    for round_, verdict in ((1, "ok"), (0, ["round 2: not held by west"])):
+        records = hand_made_records()
+        records.strategies = [
+            own for own in records.strategies if (own.agent, own.strategy.round) != ("west", 2)
+        ]
+        detail = f"agreement=doubtful round={round_ + 1}"
+        doubt = task(13.0, "west", TaskEventKind.FAULT, round_=round_, detail=detail)
+        records.tasks = sorted([*records.tasks, doubt], key=lambda own: own.stamp_ns)
+        assert document(records)["verdict"] == verdict
+
+
 def test_faults_and_failures_come_up() -> None:
     """What broke the run and what an agent reports as a fault are in the verdict."""
     records = hand_made_records()

@@ -2,11 +2,12 @@
 
 from dataclasses import dataclass, field
 
-from support.hall import STARTS, make_member
+from support.hall import DURATION_S, PERIOD_S, STARTS, make_member
 from tlcomm_core.agent.actions import SendMessage
 from tlcomm_core.agent.timing import RoundTiming, TimedMember
 from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.messages import Message
+from tlcomm_core.units import nanoseconds
 
 LATENCY_NS = 5_000_000
 
@@ -112,3 +113,18 @@ def test_a_team_of_one_is_timed_too() -> None:
     member.see_odometry(0, Pose(*STARTS["one"]), 0.0, 0.0)
     _, timing = TimedMember(member, clocks.steady, clocks.wall).step(0)
     assert timing == RoundTiming("one", 1, 0.5, 1001.0, 1002.0)
+
+
+def test_a_meeting_without_agreement_counts_for_no_round() -> None:
+    """The next round is timed from its own first offer."""
+    one, two = Timed("one"), Timed("two")
+    one.step(0)
+    failed_ns = nanoseconds(PERIOD_S + DURATION_S)
+    fallen_back = failed_ns // LATENCY_NS
+    assert one.step(failed_ns) != []
+    offered_wall_s = one.clocks.reads[-1]
+    two.step(failed_ns)
+    talk(one, two, fallen_back + 1, 30)
+    (timing,) = one.timings
+    assert timing.round == 2
+    assert timing.offered_wall_s == offered_wall_s

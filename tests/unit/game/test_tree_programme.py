@@ -65,13 +65,35 @@ def test_what_is_left_out_costs_nothing(seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", range(10))
+def test_a_part_costs_what_it_would_alone(seed: int) -> None:
+    """Cut at an edge, by the place of each of its agents, nearer ones first."""
+    programme = sample(seed, ((0, 1), (1, 2), (2, 3), (2, 4), (0, 5)))
+    part = programme.behind(1, 0)
+    assert sorted(part) == [1, 2, 3, 4]
+    assert part[:2] == [1, 2]
+    rank = {agent: place for place, agent in enumerate(part)}
+    edges = [(rank[u], rank[v]) for u, v in ((1, 2), (2, 3), (2, 4))]
+    alone = TreeProgramme(programme.costs[part], programme._neighbourhood, edges)
+    for agent, costs in enumerate(programme.costs_within(part)):
+        assert costs == pytest.approx(alone.costs_of(agent))
+
+
+def test_a_path_follows_the_tree() -> None:
+    """From either end."""
+    programme = sample(0, ((0, 1), (1, 2), (2, 3), (2, 4), (0, 5)))
+    assert programme.path(5, 3) == [5, 0, 1, 2, 3]
+    assert programme.path(3, 5) == [3, 2, 1, 0, 5]
+    assert programme.path(4, 4) == [4]
+
+
+@pytest.mark.parametrize("seed", range(10))
 def test_a_changed_tree_forgets_what_it_changed(seed: int) -> None:
     """After a subtree is joined anew, all is as in a programme that begins with that tree."""
     programme = sample(seed, ((0, 1), (1, 2), (2, 3), (3, 4), (1, 5)))
     programme.cost()
     for agent in range(6):
         programme.costs_of(agent)
-    programme.rejoin((1, 2, 3), ((1, 3), (3, 2)))
+    programme = programme.rejoined((1, 2, 3), ((1, 3), (3, 2)))
     fresh = TreeProgramme(programme.costs, programme._neighbourhood, programme.edges)
     assert set(map(frozenset, programme.edges)) == {
         frozenset(edge) for edge in ((0, 1), (1, 3), (3, 2), (3, 4), (1, 5))

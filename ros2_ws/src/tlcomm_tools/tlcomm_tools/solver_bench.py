@@ -35,8 +35,8 @@ class SolverRow:
         instances: their name.
         agents: N.
         count: how many instances.
-        agent_s: median time from the candidates to one agent's proposal; for best responses, to
-            the equilibrium, all agents in one place.
+        agent_s: median processor time from the candidates to one agent's proposal; for best
+            responses, to the equilibrium, all agents in one place.
         reference: what potentials are compared with: the solver that is the best there.
         mean_ratio: Φ over the reference's, in the mean.
         worst_ratio: the same, at worst.
@@ -54,7 +54,7 @@ class SolverRow:
 
 @dataclass(frozen=True, slots=True)
 class _Outcome:
-    """What a team finds in one round, and the times that its agents take."""
+    """What a team finds in one round, and the processor times that its agents take."""
 
     potential_s: float
     times_s: tuple[float, ...]
@@ -113,13 +113,13 @@ def _solve(problem: RoundProblem, solver: Solver, searchers: int) -> _Outcome:
     times_s: list[float] = []
     searching = range(0, team, max(1, team // searchers))[:searchers]
     for searcher in searching if solver.propose is not None else (0,):
-        begun_s = time.perf_counter()
+        begun_s = time.process_time()
         profile = initial_profile(problem)
         if solver.propose is None:
             profile = improve(problem, profile).nash
         else:
             profile = solver.propose(problem, profile, searcher).profile
-        times_s.append(time.perf_counter() - begun_s)
+        times_s.append(time.process_time() - begun_s)
         potentials_s.append(potential(problem.strategies(profile), opens_s))
     return _Outcome(min(potentials_s), tuple(times_s))
 

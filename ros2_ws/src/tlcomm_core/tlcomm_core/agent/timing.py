@@ -72,12 +72,15 @@ class TimedMember:
         """
         begin_wall_s = self._wall_s()
         begin_s = self._stopwatch_s()
-        before = self.member.phase
+        before, ended = self.member.phase, self.member.meetings_ended
         actions = self.member.step(now_ns)
         elapsed_s = self._stopwatch_s() - begin_s
         held = next((a.strategy for a in actions if isinstance(a, HoldStrategy)), None)
         if before is Phase.IMPROVING or (before in _EARLIER and self.member.phase in _LATER):
             self._solve_wall_s += elapsed_s
+        if held is None and self.member.meetings_ended != ended:
+            # What a meeting without agreement took is nothing of the next one's.
+            self._solve_wall_s, self._offered_wall_s = 0.0, None
         # What is still said after the agreement offers nothing.
         is_planning = before is not Phase.AGREED and self.member.phase is not None
         if is_planning and self._offered_wall_s is None and _says_something(actions):

@@ -3,9 +3,10 @@
 ``propose``  what one agent proposes to its team
 
 For a bound τ on the arrivals, the cheapest connected placement is wanted (``bounded_costs``). A
-spanning tree of the meeting graph gives one (``tree_programme``), and coalitions improve the tree
-(``regrouping``). Bounds are searched as for the optimum (``exact``), the most promising first; but
-what a tree costs takes the place of what any placement must cost, so that nothing is proven.
+spanning tree of the meeting graph gives one (``tree_programme``). The tree is improved by joining
+parts of it elsewhere (``reattachment``) and small coalitions anew (``regrouping``). Bounds are
+searched as for the optimum (``exact``), the most promising first; but what a tree costs takes the
+place of what any placement must cost, so that nothing is proven.
 
 Each agent has bounds of its own, so that a larger team searches more finely. Work is counted, not
 timed: a proposal is a function of the round alone.
@@ -14,6 +15,7 @@ timed: a proposal is a function of the round alone.
 import heapq
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -23,16 +25,12 @@ from tlcomm_core.game.best_response import Scope, best_response
 from tlcomm_core.game.bounded_costs import BoundedCosts
 from tlcomm_core.game.links import Neighbourhood
 from tlcomm_core.game.problem import Profile, RoundProblem
+from tlcomm_core.game.reattachment import reattach
 from tlcomm_core.game.regrouping import regroup
 from tlcomm_core.game.spanning_tree import Edge, grown_tree
 from tlcomm_core.game.tree_programme import TreeProgramme
 
 __all__ = ["propose"]
-
-# Into how many parts an agent's share of the window is cut, and how many of their bounds are looked
-# at closely.
-_SHARES: Final = 6
-_FINALISTS: Final = 2
 
 # Times nearer than this are one.
 _RESOLUTION_S: Final = 1e-6
@@ -44,19 +42,33 @@ class _Effort:
 
     Attributes:
         halvings: of intervals, at the most.
-        size: members of a coalition.
-        sweeps: how often each agent's coalition may improve a tree.
+        size: members of a coalition; 1 for no coalitions.
     """
 
     halvings: int
     size: int
-    sweeps: int
 
 
-_GLANCE: Final = _Effort(halvings=6, size=4, sweeps=1)
-_CLOSE_LOOK: Final = _Effort(halvings=2, size=5, sweeps=2)
-# A coalition of everybody is best in one sweep, which few enough agents can afford.
-_WHOLE_TEAM: Final = _Effort(halvings=2, size=8, sweeps=1)
+@dataclass(frozen=True, slots=True)
+class _Plan:
+    """How an agent searches.
+
+    Attributes:
+        parts: of its share of the window, whose bounds are glanced at.
+        glance: at these.
+        finalists: of them, how many are looked at closely.
+        close_look: at these.
+    """
+
+    parts: int
+    glance: _Effort
+    finalists: int
+    close_look: _Effort
+
+
+_LARGE_TEAM: Final = _Plan(parts=8, glance=_Effort(6, 1), finalists=2, close_look=_Effort(1, 5))
+# A coalition of everybody, which is the best for its bound, is what few enough agents can afford.
+_SMALL_TEAM: Final = _Plan(parts=6, glance=_Effort(6, 1), finalists=3, close_look=_Effort(2, 8))
 
 
 def propose(problem: RoundProblem, start: Profile, searcher: int) -> Profile:
@@ -68,17 +80,17 @@ def propose(problem: RoundProblem, start: Profile, searcher: int) -> Profile:
         searcher: index of the agent that searches.
 
     Source: beyond the paper; its Problem 2 and Eq. (5) and (8).
-    Cost: per agent O(N·H·Z + N·Z·D) for each of a fixed number of bounds, with a large factor;
-        O(N·Z) memory beside the candidates.
+    Cost: O(N·H·Z + N²·Z·log N·D) for each of a fixed number of bounds; O(N·Z) memory beside the
+        candidates.
     """
     costs = BoundedCosts(problem)
     neighbourhood = problem.links.neighbourhood_apart(problem.rules.separation_m)
     rng = np.random.default_rng((problem.round, searcher))
-    glance = _Search(problem, costs, neighbourhood, _GLANCE, rng)
-    glance.run(_share(problem, costs, searcher))
-    effort = _WHOLE_TEAM if costs.team <= _WHOLE_TEAM.size else _CLOSE_LOOK
-    close_look = _Search(problem, costs, neighbourhood, effort, rng)
-    close_look.run(trial.interval for trial in heapq.nsmallest(_FINALISTS, glance.trials))
+    plan = _SMALL_TEAM if costs.team <= _SMALL_TEAM.close_look.size else _LARGE_TEAM
+    glance = _Search(problem, costs, neighbourhood, plan.glance, rng)
+    glance.run(_share(problem, costs, searcher, plan.parts))
+    close_look = _Search(problem, costs, neighbourhood, plan.close_look, rng)
+    close_look.run(trial.interval for trial in heapq.nsmallest(plan.finalists, glance.trials))
     found = (trial.profile for trial in close_look.trials)
     return settled(problem, min((start, *found), key=costs.potential_s))
 
@@ -176,9 +188,9 @@ class _Search:
         programme = self._programme(interval)
         if programme is None:
             return
-        for _ in range(self._effort.sweeps):
-            if not regroup(programme, self._neighbourhood, self._effort.size, self._rng):
-                break
+        programme = reattach(programme, self._neighbourhood)
+        if self._effort.size > 1:
+            programme = regroup(programme, self._neighbourhood, self._effort.size, self._rng)
         cost_s, edges, locations = programme.cost(), programme.edges, programme.locations()
         tried = self._interval(interval.first_s, interval.last_s, cost_s, edges)
         earlier_s = self._costs.meeting_s(self._costs.profile(locations, tried.last_s))
@@ -213,10 +225,11 @@ class _Search:
             heapq.heappush(self._open, interval)
 
 
-def _share(problem: RoundProblem, costs: BoundedCosts, searcher: int) -> list[_Interval]:
-    """Return an agent's share of the window: every N-th of equal parts."""
+def _share(
+    problem: RoundProblem, costs: BoundedCosts, searcher: int, parts: int
+) -> list[_Interval]:
+    """Return an agent's share of the window: of all agents' parts, equally long, every N-th."""
     opens_s, closes_s = problem.window_s
-    count = _SHARES * costs.team
-    ends_s = np.linspace(costs.earliest_s, closes_s - opens_s, count + 1).tolist()
-    parts = range(searcher, count, costs.team)
-    return [_Interval(0.0, ends_s[part], ends_s[part + 1]) for part in parts]
+    ends_s = np.linspace(costs.earliest_s, closes_s - opens_s, parts * costs.team + 1).tolist()
+    intervals = [_Interval(0.0, *ends) for ends in pairwise(ends_s)]
+    return intervals[searcher :: costs.team]

@@ -1,6 +1,6 @@
 """Better trees for a team, by joining a few agents anew in the best of all ways.
 
-``regroup``  what that gains for a coalition round each agent
+``regroup``  coalitions round each agent
 """
 
 import numpy as np
@@ -16,28 +16,29 @@ __all__ = ["regroup"]
 
 def regroup(
     programme: TreeProgramme, neighbourhood: Neighbourhood, size: int, rng: np.random.Generator
-) -> float:
-    """Join a coalition round each agent anew, one after the other; return what is gained.
+) -> TreeProgramme:
+    """Join a coalition round each agent anew, one after the other.
 
     A coalition is a subtree. All that hangs on one of its members stays joined to this member and
     follows it, so that its cost is one of the member's. Then the programme over subsets finds the
     best tree and the best places for the members at once.
 
     Args:
-        programme: of a tree with a placement; changed in place.
+        programme: of a tree with a placement.
         neighbourhood: of the programme's places.
         size: members of a coalition; all agents make up a single one.
         rng: which subtrees are taken.
 
     Returns:
-        By how much the programme's cost has fallen; 0.0 if it hasn't.
+        The programme of the last tree, which costs no more.
 
     Cost: for each coalition O(3^size·Z + 2^size·Z·D), with Z the places that may gain anything.
     """
-    team = programme.team
-    firsts = range(team) if size < team else range(1)
-    coalitions = (_coalition(programme, first, min(size, team), rng) for first in firsts)
-    return sum(_rejoin(programme, members, neighbourhood) for members in coalitions)
+    size = min(size, programme.team)
+    for first in range(programme.team if size < programme.team else 1):
+        members = _coalition(programme, first, size, rng)
+        programme = _rejoined(programme, members, neighbourhood) or programme
+    return programme
 
 
 def _coalition(
@@ -53,8 +54,10 @@ def _coalition(
     return members
 
 
-def _rejoin(programme: TreeProgramme, members: list[int], neighbourhood: Neighbourhood) -> float:
-    """Join the members of a subtree in the best way; return what that gains."""
+def _rejoined(
+    programme: TreeProgramme, members: list[int], neighbourhood: Neighbourhood
+) -> TreeProgramme | None:
+    """Return the programme with the members of a subtree joined best, if that costs less."""
     inside = frozenset(members)
     costs = np.array([programme.costs_of(member, inside) for member in members])
     present = programme.cost()
@@ -63,10 +66,9 @@ def _rejoin(programme: TreeProgramme, members: list[int], neighbourhood: Neighbo
     costs[costs - least[:, None] >= present - least.sum()] = np.inf
     kept = np.flatnonzero(np.isfinite(costs).any(axis=0))
     if not len(kept):
-        return 0.0
+        return None
     placement = cheapest_placement(costs[:, kept], neighbourhood.among(kept))
     if not placement.cost < present - CHANGE_TOLERANCE_S:
-        return 0.0
+        return None
     places = dict(zip(members, kept[list(placement.locations)].tolist(), strict=True))
-    programme.rejoin(members, spanning_tree(places, neighbourhood))
-    return present - placement.cost
+    return programme.rejoined(members, spanning_tree(places, neighbourhood))

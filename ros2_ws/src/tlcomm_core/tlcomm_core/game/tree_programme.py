@@ -1,6 +1,6 @@
 """The cheapest placement of a team along a spanning tree of its meeting graph.
 
-``TreeProgramme``  the placement, by messages along the tree; the tree may change bit by bit
+``TreeProgramme``  the placement, by messages along the tree
 """
 
 from collections.abc import Iterable, Sequence
@@ -19,7 +19,8 @@ class TreeProgramme:
 
     A message from agent u to its neighbour v says what it costs to place all that lies behind u, by
     the place of v: m_uv(z) = min over z' linked to z of c_u(z') + Σ_w m_wu(z'), over u's other
-    neighbours w. Messages are kept until the tree behind them changes.
+    neighbours w. Messages are computed when they are needed, and are kept where a tree is changed
+    elsewhere.
 
     Attributes:
         costs: float[N, Z], c_i(z); +inf where the agent can't be.
@@ -81,6 +82,41 @@ class TreeProgramme:
                 costs += self._message(other, agent)
         return costs
 
+    def costs_within(self, part: Sequence[int]) -> list[NDArray[np.float64]]:
+        """Return the least cost of a part of the tree by the place of each of its agents.
+
+        Args:
+            part: what lies behind an edge, as ``behind`` returns it: nearer agents first.
+
+        Returns:
+            float[Z] for each of the part, fresh.
+        """
+        beyond = frozenset(self._neighbours[part[0]]) - frozenset(part)
+        nearer: dict[int, frozenset[int]] = {part[0]: beyond}
+        above = {part[0]: np.zeros(len(self._neighbourhood))}
+        for agent in part:
+            for other in self._neighbours[agent]:
+                if other not in nearer[agent]:
+                    nearer[other] = frozenset((agent,))
+                    rest = self.costs_of(agent, nearer[agent] | {other}) + above[agent]
+                    above[other] = self._neighbourhood.least(rest)
+        return [self.costs_of(agent, nearer[agent]) + above[agent] for agent in part]
+
+    def behind(self, sender: int, receiver: int) -> list[int]:
+        """Return the sender and all that an edge parts from the receiver, nearer ones first."""
+        found = [(sender, receiver)]
+        for u, v in found:
+            found += [(w, u) for w in self._neighbours[u] if w != v]
+        return [u for u, _ in found]
+
+    def path(self, first: int, last: int) -> list[int]:
+        """Return the agents from one to another along the tree."""
+        before = {u: v for v, u in self._outward(first)}
+        path = [last]
+        while path[-1] != first:
+            path.append(before[path[-1]])
+        return path[::-1]
+
     def locations(self) -> tuple[int, ...]:
         """Return the cheapest placement; one must exist."""
         found = [0] * len(self.costs)
@@ -89,17 +125,21 @@ class TreeProgramme:
             found[u] = self._neighbourhood.cheapest(self._sums[u, v], found[v])
         return tuple(found)
 
-    def rejoin(self, members: Sequence[int], edges: Iterable[Edge]) -> None:
-        """Replace the edges among agents that form a subtree by those of another tree of them."""
+    def rejoined(self, members: Sequence[int], edges: Iterable[Edge]) -> "TreeProgramme":
+        """Return the programme of a tree with other edges among some agents.
+
+        Args:
+            members: agents that form a subtree.
+            edges: another tree of them, which takes its place.
+        """
         inside = frozenset(members)
-        kept = {(u, v) for v, u in self._outward(members[0]) if u not in inside}
-        for member in members:
-            self._neighbours[member] = [
-                other for other in self._neighbours[member] if other not in inside
-            ]
-        self._join(edges)
-        self._sums = {edge: self._sums[edge] for edge in kept if edge in self._sums}
-        self._messages = {edge: self._messages[edge] for edge in kept if edge in self._messages}
+        kept = [(u, v) for u, v in self.edges if not (u in inside and v in inside)]
+        other = TreeProgramme(self.costs, self._neighbourhood, [*kept, *edges])
+        for v, u in self._outward(members[0]):
+            if u not in inside and (u, v) in self._messages:
+                other._sums[u, v] = self._sums[u, v]
+                other._messages[u, v] = self._messages[u, v]
+        return other
 
     def _join(self, edges: Iterable[Edge]) -> None:
         for u, v in edges:
