@@ -4,6 +4,7 @@
 """
 
 from collections.abc import Sequence
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,9 @@ from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Profile, RoundProblem
 
 __all__ = ["BoundedCosts"]
+
+# An arrival isn't later than itself, counted from r·T_c and back.
+_ROUNDING_S: Final = 1e-9
 
 
 class BoundedCosts:
@@ -49,23 +53,24 @@ class BoundedCosts:
 
         The first is ``earliest_s``.
         """
-        arrivals_s = np.concatenate([since_s.ravel() for since_s in self._since_s])
+        arrivals_s = np.concatenate([own.ravel() for own in self._arrival_s]) - self._opens_s
         later_s = arrivals_s[np.isfinite(arrivals_s) & (arrivals_s > self.earliest_s)]
         times_s: NDArray[np.float64] = np.unique(np.append(later_s, self.earliest_s))
         return times_s
 
     def at(self, latest_s: float) -> NDArray[np.float64]:
         """Return c_i(z; τ) for a bound τ, [N, Z], fresh; +inf where there is no candidate."""
+        until_s = self._opens_s + latest_s + _ROUNDING_S
         return np.array(
             [
-                np.where(arrival_s <= self._opens_s + latest_s, gain_s, np.inf).min(axis=0)
+                np.where(arrival_s <= until_s, gain_s, np.inf).min(axis=0)
                 for arrival_s, gain_s in zip(self._arrival_s, self._gain_s, strict=True)
             ]
         )
 
     def profile(self, locations: Sequence[int], latest_s: float) -> Profile:
         """Return the candidates that attain c_i(z_i; τ) at the places [N]."""
-        until_s = self._opens_s + latest_s
+        until_s = self._opens_s + latest_s + _ROUNDING_S
         candidates = tuple(
             int(np.argmin(np.where(arrival_s[:, z] <= until_s, gain_s[:, z], np.inf)))
             for arrival_s, gain_s, z in zip(self._arrival_s, self._gain_s, locations, strict=True)

@@ -250,7 +250,7 @@ class _Search:
             return
         # The same placement serves every bound from its own latest arrival on.
         meeting_s = self._placements.meeting_s(profile)
-        own = max(first, int(np.searchsorted(self._times_s, meeting_s)))
+        own = int(np.clip(np.searchsorted(self._times_s, meeting_s), first, last))
         adjusted = self._placements.adjusted(profile, self._times_s[last])
         if adjusted is not None:
             self._take(adjusted)
