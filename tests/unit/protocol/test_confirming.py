@@ -28,7 +28,7 @@ def said(sender: str, *confirmed: str) -> Confirmation:
 @pytest.fixture
 def confirming() -> Confirming:
     """Return agent a's part in a team of three."""
-    return Confirming("a", ["a", "b", "c"], 6, STRATEGY)
+    return Confirming("a", ["a", "b", "c"], 3, 6, STRATEGY)
 
 
 def test_a_digest_depends_on_every_value() -> None:

@@ -27,8 +27,12 @@ def pair_of(meeting: Meeting, max_iterations: int = 1000) -> tuple[Improving, Im
     """Return both agents' parts."""
     first, second = meeting.problem.agents
     return (
-        Improving(first, meeting.problem, [second], 1, BEST_RESPONSE, max_iterations),
-        Improving(second, meeting.problem, [first], 1, BEST_RESPONSE, max_iterations),
+        Improving(
+            first, meeting.round, meeting.problem, [second], 1, BEST_RESPONSE, max_iterations
+        ),
+        Improving(
+            second, meeting.round, meeting.problem, [first], 1, BEST_RESPONSE, max_iterations
+        ),
     )
 
 
@@ -59,7 +63,7 @@ def test_it_ends_as_the_reference_does(meeting: Meeting, max_iterations: int) ->
 def test_a_lone_agent_needs_nobody() -> None:
     """A team of one comes to its end by itself, telling each iteration once."""
     meeting = sample_meeting("line", 1, 5)
-    lone = Improving("agent_00", meeting.problem, [], 1, BEST_RESPONSE, 1000)
+    lone = Improving("agent_00", meeting.round, meeting.problem, [], 1, BEST_RESPONSE, 1000)
     said = lone.owed()
     assert lone.result is not None
     assert [message.iteration for message in said] == list(range(lone.iteration + 1))
@@ -117,8 +121,8 @@ def proposing_pair(meeting: Meeting) -> tuple[Improving, Improving]:
     """Return both agents' parts with a solver that proposes."""
     first, second = meeting.problem.agents
     return (
-        Improving(first, meeting.problem, [second], 1, EXACT, 1000),
-        Improving(second, meeting.problem, [first], 1, EXACT, 1000),
+        Improving(first, meeting.round, meeting.problem, [second], 1, EXACT, 1000),
+        Improving(second, meeting.round, meeting.problem, [first], 1, EXACT, 1000),
     )
 
 

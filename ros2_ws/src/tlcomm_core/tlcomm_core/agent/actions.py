@@ -27,7 +27,7 @@ __all__ = [
 
 
 _DISAGREEMENT: Final = "agreement="
-_COPED_WITH: Final = ("displaced_m=", "cut_off_m=", "blocked=", _DISAGREEMENT)
+_COPED_WITH: Final = ("infeasible=", "displaced_m=", "cut_off_m=", "blocked=", _DISAGREEMENT)
 
 
 class TaskEventKind(IntEnum):

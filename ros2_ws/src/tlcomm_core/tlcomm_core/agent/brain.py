@@ -17,7 +17,6 @@ At t = 0 the team is connected: the first odometry finds the agent at the meetin
 """
 
 import math
-from dataclasses import replace
 
 from tlcomm_core.agent.actions import Action, Drive, ReportTask, TaskEvent, TaskEventKind
 from tlcomm_core.agent.activities import Acting, Driving
@@ -36,7 +35,6 @@ from tlcomm_core.agent.reckoning import DeadReckoning
 from tlcomm_core.agent.settings import Settings
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.game.offer import MemberOffer
-from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.geometry import Pose, wrap_angle
 from tlcomm_core.planning.plan import PlanStep
 from tlcomm_core.protocol.actions import CountIgnored
@@ -205,7 +203,8 @@ class Brain:
         settings = self._settings
         # The departure is D_c after now or after the window's opening at the earliest.
         earliest_s = max(now_s, settings.team.opens_s(self._round)) + settings.team.duration_s
-        horizon_s = settings.team.opens_s(self._round + 2) - earliest_s
+        beyond = self._round + 1 + settings.team.most_windows
+        horizon_s = settings.team.opens_s(beyond) - earliest_s
         return MemberOffer(
             agent=settings.name,
             arrival_s=now_s,
@@ -227,12 +226,15 @@ class Brain:
             meeting.has_started = True
             detail = f"t_c_s={starts_s:.9f}"
             actions.append(self._report(TaskEventKind.MEETING_STARTED, detail=detail))
-        if negotiation.agreed is not None and not meeting.is_agreed:
+        if (agreed := negotiation.agreed) is not None and not meeting.is_agreed:
             meeting.is_agreed = True
-            own = meeting.own_part(negotiation.agreed)
-            self._itinerary.agree(own, negotiation.agreed.communication_s)
+            self._itinerary.agree(meeting.own_part(agreed), agreed.communication_s)
             self._itinerary.heed_map(self._pose, meeting.over_s)
-            actions.append(self._report(TaskEventKind.ROUND_AGREED, round_=round_))
+            actions.append(self._report(TaskEventKind.ROUND_AGREED, round_=agreed.round))
+        if negotiation.obstacle is not None and not meeting.is_obstructed:
+            meeting.is_obstructed = True
+            detail = f"infeasible={negotiation.obstacle}"
+            actions.append(self._report(TaskEventKind.FAULT, detail=detail))
         if self._is_due(meeting.over_s, now_s) and not meeting.is_agreed | meeting.is_overdue:
             meeting.is_overdue = True
             actions.append(self._report_disagreement("late", round_))
@@ -252,7 +254,8 @@ class Brain:
             actions = [self._report(TaskEventKind.MEETING_ENDED)]
         else:
             actions = [self._report_disagreement(ending.value, window + 1)]
-        self._round = window + 1
+        agreed = meeting.negotiation.agreed
+        self._round = window + 1 if agreed is None else agreed.round
         if own is not None and confirmed is not None:
             if not meeting.is_agreed:
                 self._itinerary.agree(own, confirmed.communication_s)
@@ -263,13 +266,8 @@ class Brain:
         there_m = self._whereabouts.place(self._round)
         if there_m == here_m and not self._itinerary.calls_away(self._pose):
             return [*actions, *self._reach_meeting(now_s)]
-        self._itinerary.agree(self._return_to(there_m, now_s), now_s)
+        self._itinerary.return_to(there_m, self._settings.name, self._pose, now_s)
         return [*actions, *self._set_out(now_s)]
-
-    def _return_to(self, place_m: tuple[float, float], now_s: float) -> Strategy:
-        """Return how to attend a meeting at a place by going straight there."""
-        place = Strategy(self._settings.name, *place_m, self._itinerary.done, now_s, 0.0)
-        return replace(place, arrival_s=now_s + self._itinerary.leg(self._pose, place).duration_s)
 
     def _report_disagreement(self, how: str, round_: int) -> ReportTask:
         return self._report(TaskEventKind.FAULT, detail=f"agreement={how} round={round_}")

@@ -20,6 +20,7 @@ before the meeting; a place of meeting that can't is replaced by the nearest one
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Final
 
 from tlcomm_core.agent.events import TaskChanged
@@ -115,6 +116,12 @@ class Itinerary:
         self._is_map_new = True
         if self._left_s(pose) > before_s + _ROUNDING_S:
             self.delay()
+
+    def return_to(self, place_m: tuple[float, float], name: str, pose: Pose, now_s: float) -> None:
+        """Go straight to a place (m) where the team may meet, as agent ``name``, from a pose."""
+        place = Strategy(name, *place_m, self.done, now_s, 0.0)
+        arrival_s = now_s + self.leg(pose, place).duration_s
+        self.agree(replace(place, arrival_s=arrival_s), now_s)
 
     def change(self, change: TaskChanged) -> None:
         """Note another plan; it begins at the next meeting, unless yet another comes before."""

@@ -36,6 +36,7 @@ class Meeting:
         negotiation: what is said.
         has_started: whether the beginning was reported.
         is_agreed: whether the agreement was.
+        is_obstructed: whether it was that the next window can't be met in.
         is_overdue: whether it was that the meeting is over without one.
     """
 
@@ -57,6 +58,7 @@ class Meeting:
         self.negotiation: Final = negotiation
         self.has_started = False
         self.is_agreed = False
+        self.is_obstructed = False
         self.is_overdue = False
         self._own = own
         self._linger_s = team.linger_s

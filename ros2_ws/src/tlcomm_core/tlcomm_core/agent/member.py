@@ -37,7 +37,7 @@ from tlcomm_core.geometry import Pose
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.protocol.negotiation import Phase
-from tlcomm_core.protocol.team import Team
+from tlcomm_core.protocol.team import OnInfeasible, Team
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.workspace.atlas import Atlas
@@ -181,6 +181,7 @@ def team_of(site: Site, solver: Solver = DEFAULT) -> Team:
         duration_s=communication.duration_s,
         rules=Rules(communication.separation_m, communication.resilience),
         margin_s=communication.margin_s,
+        on_infeasible=OnInfeasible(communication.on_infeasible),
         clearance_m=site.planned_clearance_m,
         solver=solver,
     )

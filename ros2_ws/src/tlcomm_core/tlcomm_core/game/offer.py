@@ -3,10 +3,12 @@
 ``PlannedStop``  one step of a plan as others need it
 ``MemberOffer``  an agent's presence and plan
 ``next_stops``   an agent's own next stops
+``busy_until``   who has no time for a meeting, and why
 ``offer_flaw``   what is wrong with an offer
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Final
@@ -16,7 +18,7 @@ from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.workspace.grid import Grid
 from tlcomm_core.workspace.travel import TravelTimes
 
-__all__ = ["MAX_STOPS", "MemberOffer", "PlannedStop", "next_stops", "offer_flaw"]
+__all__ = ["MAX_STOPS", "MemberOffer", "PlannedStop", "busy_until", "next_stops", "offer_flaw"]
 
 MAX_STOPS: Final = 256
 """The most stops in an offer: a plan of very short steps is cut off, not sent at any length."""
@@ -104,6 +106,22 @@ def next_stops(
             offset_s += leg.duration_s + step.duration_s
         stops.append(PlannedStop(task_index, pose.x_m, pose.y_m, pose.yaw_rad, offset_s))
     return tuple(stops)
+
+
+def busy_until(offers: Iterable[MemberOffer], departure_s: float, closes_s: float) -> str:
+    """Return who is busy with its next step until a window closes, and until when; "" if nobody.
+
+    Args:
+        offers: of the members.
+        departure_s: when they leave the present meeting.
+        closes_s: when the window closes.
+    """
+    ends_s = {offer.agent: departure_s + offer.stops[0].finish_offset_s for offer in offers}
+    return ", ".join(
+        f"{agent}'s next step takes until {end_s:.1f} s"
+        for agent, end_s in ends_s.items()
+        if end_s >= closes_s
+    )
 
 
 def offer_flaw(offer: MemberOffer, grid: Grid) -> str | None:

@@ -31,10 +31,11 @@ class Confirming:
     """
 
     def __init__(
-        self, own: str, members: Iterable[str], iteration: int, strategy: TeamStrategy
+        self, own: str, members: Iterable[str], round_: int, iteration: int, strategy: TeamStrategy
     ) -> None:
         """Confirm ``strategy``, the result of ``iteration``; this is owed to the neighbours."""
         self._own = own
+        self._round = round_
         self._members = frozenset(members)
         self._iteration = iteration
         self._strategy = strategy
@@ -84,7 +85,7 @@ class Confirming:
         """Return what to repeat while a neighbour may lack it."""
         return Confirmation(
             sender=self._own,
-            round=self._strategy.round,
+            round=self._round,
             iteration=self._iteration,
             digest=self._digest,
             confirmed=self._flood.known,

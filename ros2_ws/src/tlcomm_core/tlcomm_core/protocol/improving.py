@@ -39,6 +39,7 @@ class Improving:
     def __init__(
         self,
         own: str,
+        round_: int,
         problem: RoundProblem,
         neighbours: Iterable[str],
         exchanges: int,
@@ -49,7 +50,9 @@ class Improving:
 
         Args:
             own: this agent's name.
-            problem: the round; of the others' candidates only S⁰ and proposals make use.
+            round_: the round under negotiation.
+            problem: that round, or the one after it if it is skipped; of the others' candidates
+                only S⁰ and proposals make use.
             neighbours: the agent's neighbours in the meeting graph.
             exchanges: the meeting graph's diameter, at least 1.
             solver: what to propose.
@@ -61,6 +64,7 @@ class Improving:
         initial = initial_profile(problem)
         strategies = problem.strategies(initial)
         self._own = own
+        self._round = round_
         self._problem = problem
         self._index = problem.agents.index(own)
         self._choice = initial.choice(self._index)
@@ -189,7 +193,7 @@ class Improving:
         return self._consensus.begin(
             Proposal(
                 sender=self._own,
-                round=self._problem.round,
+                round=self._round,
                 iteration=0,
                 hop=0,
                 candidate=self._own,
@@ -211,7 +215,7 @@ class Improving:
         return self._consensus.begin(
             BestResponse(
                 sender=self._own,
-                round=self._problem.round,
+                round=self._round,
                 iteration=self._consensus.iteration + 1,
                 hop=0,
                 candidate=self._own,

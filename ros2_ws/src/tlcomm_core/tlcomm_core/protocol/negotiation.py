@@ -14,6 +14,9 @@ IMPROVING   Over the meeting graph, which is known to all from the offers' place
 CONFIRMING  The search is over; everyone floods that it holds the result. (``confirming``)
 AGREED      All confirmations are known: the team strategy is held as agreed.
 
+If no window that may be planned has an admissible meeting, which all find alike, nothing is
+improved: the team stays until the round is given up (``team.OnInfeasible``).
+
 Who hasn't confirmed a round until D_c into its window (``Team.confirmable_until_s``) gives it up
 for good: it says and hears nothing of that round any more.
 
@@ -55,9 +58,9 @@ from typing import Final, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from tlcomm_core.errors import LocalMisuseError
+from tlcomm_core.errors import InfeasibleRoundError, LocalMisuseError
 from tlcomm_core.game.links import LINK_TOLERANCE_M
-from tlcomm_core.game.offer import MemberOffer
+from tlcomm_core.game.offer import MemberOffer, busy_until
 from tlcomm_core.game.problem import RoundProblem
 from tlcomm_core.game.strategy import TeamStrategy
 from tlcomm_core.protocol.actions import Action, CountIgnored, HoldStrategy, SendMessage
@@ -73,7 +76,7 @@ from tlcomm_core.protocol.messages import (
     Word,
 )
 from tlcomm_core.protocol.reception import Reception
-from tlcomm_core.protocol.team import Team
+from tlcomm_core.protocol.team import OnInfeasible, Team
 from tlcomm_core.world.radio import diameter, distances_m, edges, pair_indices
 
 __all__ = ["Negotiation", "Phase", "Rounds"]
@@ -140,6 +143,7 @@ class Negotiation:
         self._retry_s = team.retry_s
         self._next_need_s = math.inf
         self._is_given_up = False
+        self._obstacle: str | None = None
 
     @property
     def round(self) -> int:
@@ -183,6 +187,11 @@ class Negotiation:
         )
 
     @property
+    def obstacle(self) -> str | None:
+        """Why there is no admissible meeting in the round's window, if there is none."""
+        return self._obstacle
+
+    @property
     def is_given_up(self) -> bool:
         """Whether it was too late to confirm: this agent will have no part in the round."""
         return self._is_given_up
@@ -211,7 +220,7 @@ class Negotiation:
         """Go as far as what was heard allows, and repeat what may have been lost.
 
         Raises:
-            InfeasibleRoundError: no admissible meeting exists in the round's window.
+            InfeasibleRoundError: no admissible meeting exists, and the team is to stop then.
         """
         if self._give_up(now_s):
             return ()
@@ -281,15 +290,16 @@ class Negotiation:
         messages: list[Message] = []
         if (offer := self._gathering.owed()) is not None:
             messages.append(offer)
-        if self._improving is None and self._gathering.is_complete:
+        if self._meeting_s is None and self._gathering.is_complete:
             self._meeting_s = self._gathering.meeting_s
             self._improving = self._begin_improving(self._meeting_s + self._team.duration_s)
-            self._take_kept()
+            if self._improving is not None:
+                self._take_kept()
         if self._improving is not None and self._confirming is None:
             messages += self._improving.owed()
             if (result := self._improving.result) is not None:
                 self._confirming = Confirming(
-                    self._own, self._team.members, self._improving.iteration, result
+                    self._own, self._team.members, self._round, self._improving.iteration, result
                 )
                 self._take_kept()
         if self._confirming is not None:
@@ -299,7 +309,28 @@ class Negotiation:
                 self._agreed = self._confirming.strategy
         return messages
 
-    def _begin_improving(self, departure_s: float) -> Improving:
+    def _begin_improving(self, departure_s: float) -> Improving | None:
+        """Begin to plan the first window that the team can meet in, of those that it may plan.
+
+        All hold the same offers, so all find the same windows impossible.
+
+        Raises:
+            InfeasibleRoundError: there is none, and the team is to stop then.
+        """
+        for round_ in range(self._round, self._round + self._team.most_windows):
+            try:
+                return self._improving_for(round_, departure_s)
+            except InfeasibleRoundError as error:
+                busy = busy_until(
+                    self._gathering.offers, departure_s, self._team.opens_s(round_ + 1)
+                )
+                reason = f"{error}; {busy}" if busy else str(error)
+                if self._team.on_infeasible is OnInfeasible.STOP:
+                    raise InfeasibleRoundError(reason) from error
+                self._obstacle = self._obstacle or reason
+        return None
+
+    def _improving_for(self, round_: int, departure_s: float) -> Improving:
         offers = self._gathering.offers
         links, exchanges = _meeting_graph(offers, self._team, self._rounds.sightings(offers))
         names = [offer.agent for offer in offers]
@@ -307,7 +338,8 @@ class Negotiation:
         self._neighbours = frozenset(names[i + j - own] for i, j in links if own in (i, j))
         return Improving(
             self._own,
-            self._rounds.problem(self._round, departure_s, offers),
+            self._round,
+            self._rounds.problem(round_, departure_s, offers),
             self._neighbours,
             exchanges,
             self._team.solver,

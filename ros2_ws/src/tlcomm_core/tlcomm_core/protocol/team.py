@@ -1,15 +1,28 @@
 """What every member knows of the team beforehand.
 
-``Team``  names, range, meeting windows, and how often unanswered messages are repeated
+``Team``          names, range, meeting windows, and how often unanswered messages are repeated
+``OnInfeasible``  what it does when a round has no admissible meeting
 """
 
 from dataclasses import dataclass
+from enum import Enum
 
 from tlcomm_core.game.candidates import ROUNDING_S
 from tlcomm_core.game.rules import PLAIN_RULES, Rules
 from tlcomm_core.game.solver import DEFAULT, Solver
 
-__all__ = ["Team"]
+__all__ = ["OnInfeasible", "Team"]
+
+
+class OnInfeasible(Enum):
+    """What the team does when a round has no admissible meeting."""
+
+    WAIT = "wait"
+    """It stays together where it is until that window has been kept, and plans anew then."""
+    SKIP = "skip"
+    """It gives that window up and meets in the one after it; if that can't be either, it waits."""
+    STOP = "stop"
+    """The run ends, and says who can't meet and why."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +44,7 @@ class Team:
         max_iterations: K of Algorithm 1.
         rules: what the places of meetings must be, beside connected.
         margin_s: how long before its window's end a meeting begins at the latest.
+        on_infeasible: what to do when a round has no admissible meeting.
         clearance_m: how far from obstacles members see each other for sure, although each may be
             off its place; ``None`` if their radios don't need to see.
     """
@@ -47,6 +61,7 @@ class Team:
     max_iterations: int = 1000
     rules: Rules = PLAIN_RULES
     margin_s: float = ROUNDING_S
+    on_infeasible: OnInfeasible = OnInfeasible.STOP
     clearance_m: float | None = None
 
     def opens_s(self, round_: int) -> float:
@@ -56,6 +71,11 @@ class Team:
     def window_s(self, round_: int) -> tuple[float, float]:
         """Return a round's window [r·T_c, (r+1)·T_c)."""
         return self.opens_s(round_), self.opens_s(round_ + 1)
+
+    @property
+    def most_windows(self) -> int:
+        """How many windows ahead a meeting may be planned."""
+        return 2 if self.on_infeasible is OnInfeasible.SKIP else 1
 
     def confirmable_until_s(self, round_: int) -> float:
         """Return until when a round may be confirmed by an agent: D_c into its window.

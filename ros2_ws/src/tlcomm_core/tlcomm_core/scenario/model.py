@@ -5,7 +5,7 @@
 What fields mean together is checked in ``checks``.
 """
 
-from typing import Annotated, Final
+from typing import Annotated, Final, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
@@ -95,6 +95,7 @@ class Communication(_Section):
         separation_m: the least distance between two agents' places at a planned meeting.
         resilience: how many agents may fail so that the others still are connected.
         margin_s: how long before its window's end a meeting begins at the latest.
+        on_infeasible: what the team does when nobody can plan a meeting in the next window.
     """
 
     range_m: Positive
@@ -104,6 +105,7 @@ class Communication(_Section):
     separation_m: NotNegative = 0.0
     resilience: Annotated[int, Field(ge=0, le=1)] = 0
     margin_s: NotNegative = 0.001
+    on_infeasible: Literal["wait", "skip", "stop"] = "wait"
 
 
 class Radio(_Section):
