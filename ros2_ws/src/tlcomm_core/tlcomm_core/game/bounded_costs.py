@@ -4,7 +4,6 @@
 """
 
 from collections.abc import Sequence
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +12,6 @@ from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Profile, RoundProblem
 
 __all__ = ["BoundedCosts"]
-
-# An arrival isn't later than itself, counted from r·T_c and back.
-_ROUNDING_S: Final = 1e-9
 
 
 class BoundedCosts:
@@ -40,40 +36,37 @@ class BoundedCosts:
         self.team = len(problem.candidates)
         self._problem = problem
         self._opens_s, _ = problem.window_s
-        self._arrival_s = [own.arrival_s for own in problem.candidates]
+        self._since_s = [own.arrival_s - self._opens_s for own in problem.candidates]
         self._gain_s = [
-            own.extra_s - np.where(np.isfinite(own.arrival_s), own.arrival_s - self._opens_s, 0.0)
-            for own in problem.candidates
+            own.extra_s - np.where(np.isfinite(since_s), since_s, 0.0)
+            for own, since_s in zip(problem.candidates, self._since_s, strict=True)
         ]
-        first_s = max(float(arrival_s.min()) for arrival_s in self._arrival_s)
-        self.earliest_s = max(0.0, first_s - self._opens_s)
+        self.earliest_s = max(0.0, *(float(since_s.min()) for since_s in self._since_s))
 
     def times_s(self) -> NDArray[np.float64]:
         """Return the arrivals that may be the communication time, ascending, fresh.
 
         The first is ``earliest_s``.
         """
-        arrivals_s = np.concatenate([own.ravel() for own in self._arrival_s]) - self._opens_s
+        arrivals_s = np.concatenate([since_s.ravel() for since_s in self._since_s])
         later_s = arrivals_s[np.isfinite(arrivals_s) & (arrivals_s > self.earliest_s)]
         times_s: NDArray[np.float64] = np.unique(np.append(later_s, self.earliest_s))
         return times_s
 
     def at(self, latest_s: float) -> NDArray[np.float64]:
         """Return c_i(z; τ) for a bound τ, [N, Z], fresh; +inf where there is no candidate."""
-        until_s = self._opens_s + latest_s + _ROUNDING_S
         return np.array(
             [
-                np.where(arrival_s <= until_s, gain_s, np.inf).min(axis=0)
-                for arrival_s, gain_s in zip(self._arrival_s, self._gain_s, strict=True)
+                np.where(since_s <= latest_s, gain_s, np.inf).min(axis=0)
+                for since_s, gain_s in zip(self._since_s, self._gain_s, strict=True)
             ]
         )
 
     def profile(self, locations: Sequence[int], latest_s: float) -> Profile:
         """Return the candidates that attain c_i(z_i; τ) at the places [N]."""
-        until_s = self._opens_s + latest_s + _ROUNDING_S
         candidates = tuple(
-            int(np.argmin(np.where(arrival_s[:, z] <= until_s, gain_s[:, z], np.inf)))
-            for arrival_s, gain_s, z in zip(self._arrival_s, self._gain_s, locations, strict=True)
+            int(np.argmin(np.where(since_s[:, z] <= latest_s, gain_s[:, z], np.inf)))
+            for since_s, gain_s, z in zip(self._since_s, self._gain_s, locations, strict=True)
         )
         return Profile(tuple(locations), candidates)
 
@@ -83,6 +76,5 @@ class BoundedCosts:
 
     def meeting_s(self, profile: Profile) -> float:
         """Return t_c."""
-        chosen = zip(self._arrival_s, profile.candidate, profile.location, strict=True)
-        last_s = max(float(arrival_s[h, z]) for arrival_s, h, z in chosen)
-        return max(0.0, last_s - self._opens_s)
+        chosen = zip(self._since_s, profile.candidate, profile.location, strict=True)
+        return max(0.0, *(float(since_s[h, z]) for since_s, h, z in chosen))
