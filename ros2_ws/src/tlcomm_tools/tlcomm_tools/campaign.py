@@ -1,8 +1,10 @@
 """Meetings rehearsed over bad radio, many times: how long agreement takes, and how often too long.
 
-``Campaign``   what to rehearse
-``Rehearsed``  what came of one meeting
-``rehearse``   all of a campaign's meetings, one after the other
+``Campaign``     what to rehearse
+``Rehearsed``    what came of one meeting
+``rehearse``     all of a campaign's meetings, one after the other
+``LATENCY_S``    how long a message takes at least
+``MOST_AGENTS``  how large a team may be
 
 The negotiations and the radio's ``Channel`` are those of real runs; vehicles aren't needed, and
 computing takes no time. Each meeting is a random one: agents at places that are connected, planning
@@ -34,13 +36,16 @@ from tlcomm_core.protocol.team import Team
 from tlcomm_core.scenario.model import Radio
 from tlcomm_core.units import nanoseconds, seconds
 
-__all__ = ["Campaign", "Rehearsed", "rehearse"]
+__all__ = ["LATENCY_S", "MOST_AGENTS", "Campaign", "Rehearsed", "rehearse"]
+
+LATENCY_S: Final = 0.005
+MOST_AGENTS: Final = 30
+"""Of larger teams random rounds hardly ever have a solution."""
 
 _PERIOD_S: Final = 60.0
 _RANGE_M: Final = 1.0
 _PLANNED_M: Final = 0.96
 _NEXT_M: Final = (0.5, 0.9)
-_LATENCY_S: Final = 0.005
 _LATEST_S: Final = 10.0
 _TASKS: Final = 4
 _LATTICE: Final = (8, 8)
@@ -185,7 +190,7 @@ class _Meeting:
             if name != sender and distance_m <= _RANGE_M:
                 passage = self._channels[name].carry(message, nanoseconds(now_s), distance_m)
                 for delay_ns in passage.delays_ns:
-                    self._post(now_s + _LATENCY_S + seconds(delay_ns), name, message)
+                    self._post(now_s + LATENCY_S + seconds(delay_ns), name, message)
 
     def _post(self, time_s: float, name: str, what: Negotiation | Message) -> None:
         heapq.heappush(self._due, (time_s, next(self._order), name, what))

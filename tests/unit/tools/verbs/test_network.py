@@ -36,7 +36,10 @@ def test_what_is_late_has_no_time(capsys: pytest.CaptureFixture[str]) -> None:
         (["--loss", "1.1"], "--loss: expected a number from 0 to 1, not '1.1'"),
         (["--jitter", "-1"], "--jitter: expected a number from 0 on, not '-1'"),
         (["--duration", "0"], "--duration: expected a number greater than 0, not '0'"),
-        (["--agents", "0"], "--agents: expected a whole number from 1 on, not '0'"),
+        (["--agents", "1"], "--agents: expected a whole number from 2 to 30, not '1'"),
+        (["--agents", "8", "31"], "--agents: expected a whole number from 2 to 30, not '31'"),
+        (["--agents", "two"], "--agents: expected a whole number from 2 to 30, not 'two'"),
+        (["--jitter", "5"], "--duration: 5.0 isn't longer than a message may take (5.005 s"),
     ],
 )
 def test_bad_conditions_are_refused(

@@ -23,7 +23,11 @@ BAD_VALUES = [
     (["simulate", CORRIDOR, "--until", "0"], "--until: expected a number greater than 0, not '0'"),
     (["simulate", CORRIDOR, "--until", "inf"], "--until: expected a number greater than 0"),
     (["simulate", CORRIDOR, "--until", "nan"], "--until: expected a number greater than 0"),
-    (["simulate", CORRIDOR, "--seed", "-3"], "--seed: expected a whole number from 0 on"),
+    (["simulate", CORRIDOR, "--seed", "-3"], "--seed: expected a whole number from 0 to"),
+    (
+        ["run", CORRIDOR, "--seed", "9223372036854775808"],
+        "--seed: expected a whole number from 0 to 9223372036854775807",
+    ),
     (["simulate", CORRIDOR, "--pace", "2.0"], "--pace: '2.0' is for 'tlcomm run'"),
     (
         ["simulate", CORRIDOR, "--solver", "nonsense"],

@@ -2,16 +2,17 @@
 
 import math
 import statistics
-from argparse import ArgumentParser, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from typing import Any, Final
 
+from tlcomm_core.errors import InputError
 from tlcomm_core.scenario.model import Radio
-from tlcomm_tools.campaign import Campaign, rehearse
+from tlcomm_tools.campaign import LATENCY_S, MOST_AGENTS, Campaign, rehearse
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_number, format_table
 from tlcomm_tools.verbs.options import (
+    add_seed_argument,
     not_negative_float,
-    not_negative_int,
     positive_float,
     positive_int,
     print_json,
@@ -29,11 +30,11 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the verb's arguments."""
     parser.add_argument(
         "--agents",
-        type=positive_int,
+        type=_team_size,
         nargs="+",
         default=[8],
         metavar="N",
-        help="team sizes (default 8)",
+        help=f"team sizes, from 2 to {MOST_AGENTS} (default 8)",
     )
     parser.add_argument(
         "--meetings", type=positive_int, default=100, metavar="N", help="of each (default 100)"
@@ -53,13 +54,21 @@ def add_arguments(parser: ArgumentParser) -> None:
         action="store_true",
         help="agree by best responses alone; otherwise proposals come first",
     )
-    parser.add_argument(
-        "--seed", type=not_negative_int, default=0, metavar="N", help="of the first (default 0)"
-    )
+    add_seed_argument(parser, of="the first meeting")
 
 
 def run(options: Namespace) -> Status:
-    """Rehearse and show the table."""
+    """Rehearse and show the table.
+
+    Raises:
+        InputError: no message would be sure to arrive while a meeting lasts.
+    """
+    slowest_s = LATENCY_S + options.jitter
+    if slowest_s >= options.duration:
+        raise InputError(
+            f"--duration: {options.duration!r} isn't longer than a message may take"
+            f" ({slowest_s:.9g} s: {LATENCY_S!r} s and --jitter); expected a longer meeting"
+        )
     radio = Radio(loss=options.loss, jitter_s=options.jitter, duplication=options.duplication)
     measured = [
         _measure(
@@ -88,6 +97,12 @@ def run(options: Namespace) -> Status:
     else:
         print(_format(measured, options))
     return Status.FINE
+
+
+def _team_size(text: str) -> int:
+    if text.isdecimal() and 1 < int(text) <= MOST_AGENTS:
+        return int(text)
+    raise ArgumentTypeError(f"expected a whole number from 2 to {MOST_AGENTS}, not {text!r}")
 
 
 def _measure(campaign: Campaign) -> dict[str, Any]:

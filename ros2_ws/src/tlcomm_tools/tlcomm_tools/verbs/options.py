@@ -2,9 +2,10 @@
 
 ``add_mission_arguments``  what is run, how long, and where to
 ``add_pace_argument``      how simulated time goes on
+``add_seed_argument``      what chance is drawn from
 ``add_solver_argument``    how rounds are solved
 ``positive_int``, ``not_negative_int``, ``positive_float``, ``positive_fraction``   types
-``not_negative_float``, ``share``   more types
+``not_negative_float``, ``share``, ``seed``   more types
 ``pace``, ``method``, ``solver``  more types
 ``mission_end``            how long to run
 ``print_json``             one document on standard output
@@ -27,6 +28,7 @@ __all__ = [
     "METHODS",
     "add_mission_arguments",
     "add_pace_argument",
+    "add_seed_argument",
     "add_solver_argument",
     "method",
     "mission_end",
@@ -37,6 +39,7 @@ __all__ = [
     "positive_fraction",
     "positive_int",
     "print_json",
+    "seed",
     "share",
     "solver",
 ]
@@ -45,6 +48,8 @@ LOCKSTEP: Final = "lockstep"
 METHODS: Final = ("team",)
 _LATER_METHODS: Final = ("static", "pairwise", "all-time")
 _DEFAULT_ROUNDS: Final = 5
+# As large as a parameter of a ROS node may be.
+_MOST_SEED: Final = 2**63 - 1
 _LEAST_FRACTION: Final = Fraction(1, 10**9)
 _MOST_FRACTION: Final = Fraction(10**9)
 
@@ -62,6 +67,16 @@ def not_negative_int(text: str) -> int:
     value = _whole(text)
     if value is None or value < 0:
         raise argparse.ArgumentTypeError(f"expected a whole number from 0 on, not {text!r}")
+    return value
+
+
+def seed(text: str) -> int:
+    """Read a seed."""
+    value = _whole(text)
+    if value is None or not 0 <= value <= _MOST_SEED:
+        raise argparse.ArgumentTypeError(
+            f"expected a whole number from 0 to {_MOST_SEED}, not {text!r}"
+        )
     return value
 
 
@@ -151,13 +166,7 @@ def add_mission_arguments(parser: argparse.ArgumentParser) -> None:
         "--method", type=method, default=METHODS[0], metavar="NAME", help="team (the default)"
     )
     add_solver_argument(parser)
-    parser.add_argument(
-        "--seed",
-        type=not_negative_int,
-        default=0,
-        metavar="N",
-        help="of all that is random (default 0)",
-    )
+    add_seed_argument(parser)
     parser.add_argument(
         "--out",
         type=Path,
@@ -175,6 +184,11 @@ def add_solver_argument(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         help=f"of the rounds: {', '.join(SOLVERS)} (default {DEFAULT.name})",
     )
+
+
+def add_seed_argument(parser: argparse.ArgumentParser, of: str = "all that is random") -> None:
+    """Add what chance is drawn from."""
+    parser.add_argument("--seed", type=seed, default=0, metavar="N", help=f"of {of} (default 0)")
 
 
 def add_pace_argument(parser: argparse.ArgumentParser) -> None:

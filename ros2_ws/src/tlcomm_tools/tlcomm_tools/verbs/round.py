@@ -20,8 +20,8 @@ from tlcomm_tools.rounds import pose_round
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_table
 from tlcomm_tools.verbs.options import (
+    add_seed_argument,
     add_solver_argument,
-    not_negative_int,
     positive_int,
     print_json,
 )
@@ -44,13 +44,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="also say what each agent pays, what else it could do, and how Φ came down",
     )
     parser.add_argument("--out", type=Path, metavar="FILE", help="write the JSON document here")
-    parser.add_argument(
-        "--seed",
-        type=not_negative_int,
-        default=0,
-        metavar="N",
-        help="of all that is random (default 0)",
-    )
+    add_seed_argument(parser)
 
 
 def run(options: Namespace) -> Status:
