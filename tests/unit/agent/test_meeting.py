@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import pytest
 
 from support.meetings import make_team
-from tlcomm_core.agent.meeting import Meeting
+from tlcomm_core.agent.meeting import Meeting, News
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.protocol.whereabouts import Ending
 
@@ -33,6 +33,7 @@ class Told:
     confirmed: TeamStrategy | None = None
     agreed: TeamStrategy | None = None
     is_settled: bool = False
+    obstacle: str | None = None
     round: int = 2
     next_need_s: float = math.inf
 
@@ -50,8 +51,8 @@ def meeting_with(told: Told, way_s: float = WAY_S) -> Meeting:
 def leaves_s(told: Told, since_s: float = 101.0, way_s: float = WAY_S) -> float:
     """Return when an agent leaves that has known that much since a time."""
     meeting = meeting_with(told, way_s)
-    meeting.has_started = meeting.is_agreed = meeting.is_overdue = True
     meeting.proceed(since_s)
+    meeting.news(max(since_s, OVER_S))
     time_s = meeting.next_change_s
     assert meeting.ending(math.nextafter(time_s - 1e-6, 0.0)) is None
     assert meeting.ending(time_s) is not None
@@ -111,8 +112,20 @@ def test_it_asks_to_be_woken_for_what_is_next() -> None:
     told = Told(next_need_s=103.0)
     meeting = meeting_with(told)
     assert meeting.next_change_s == 100.0
-    meeting.has_started = True
+    assert meeting.news(100.0) == (News.STARTED,)
     assert meeting.next_change_s == OVER_S
     assert meeting.next_need_s == 103.0
-    meeting.is_overdue = True
+    assert meeting.news(OVER_S) == (News.OVERDUE,)
     assert meeting.next_change_s == LATEST_S
+
+
+def test_news_is_told_once() -> None:
+    """What happens at one instant in order; what is agreed in time isn't overdue."""
+    told = Told(meeting_s=None, obstacle="agent_01 is busy")
+    meeting = meeting_with(told)
+    assert meeting.news(99.0) == (News.OBSTRUCTED,)
+    told.meeting_s, told.agreed = 100.0, NEXT
+    assert not meeting.is_agreed
+    assert meeting.news(100.0) == (News.STARTED, News.AGREED)
+    assert meeting.is_agreed
+    assert meeting.news(OVER_S) == ()

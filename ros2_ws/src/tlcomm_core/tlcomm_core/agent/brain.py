@@ -30,11 +30,12 @@ from tlcomm_core.agent.events import (
     TimePassed,
 )
 from tlcomm_core.agent.itinerary import Itinerary
-from tlcomm_core.agent.meeting import RESOLUTION_S, Meeting
+from tlcomm_core.agent.meeting import Meeting, News, is_due
+from tlcomm_core.agent.offering import offer_of
 from tlcomm_core.agent.reckoning import DeadReckoning
 from tlcomm_core.agent.settings import Settings
 from tlcomm_core.errors import PlanningError
-from tlcomm_core.game.offer import MemberOffer
+from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose, wrap_angle
 from tlcomm_core.planning.plan import PlanStep
 from tlcomm_core.protocol.actions import CountIgnored
@@ -181,9 +182,10 @@ class Brain:
         if self._itinerary.is_blocked(self._pose):
             actions.append(self._plan_anew())
         settings = self._settings
+        offer = offer_of(settings, self._itinerary, self._pose, self._map_ns, self._round, now_s)
         self._activity = Meeting(
             settings.name,
-            Negotiation(self._offer(now_s), self._round + 1, settings.team, settings.rounds),
+            Negotiation(offer, self._round + 1, settings.team, settings.rounds),
             settings.team,
             lambda meeting: self._itinerary.leg(self._pose, meeting).duration_s,
         )
@@ -199,48 +201,34 @@ class Brain:
         itinerary.plan_anew(plan)
         return self._report(TaskEventKind.PLAN_CHANGED)
 
-    def _offer(self, now_s: float) -> MemberOffer:
-        settings = self._settings
-        # The departure is D_c after now or after the window's opening at the earliest.
-        earliest_s = max(now_s, settings.team.opens_s(self._round)) + settings.team.duration_s
-        beyond = self._round + 1 + settings.team.most_windows
-        horizon_s = settings.team.opens_s(beyond) - earliest_s
-        return MemberOffer(
-            agent=settings.name,
-            arrival_s=now_s,
-            x_m=self._pose.x_m,
-            y_m=self._pose.y_m,
-            yaw_rad=self._pose.yaw_rad,
-            linear_mps=settings.travel.motion.linear_mps,
-            angular_radps=settings.travel.motion.angular_radps,
-            stops=self._itinerary.next_stops(self._pose, horizon_s),
-            avoided=tuple(sorted(settings.travel.grid.avoided)),
-            map_ns=self._map_ns,
-        )
-
     def _meet(self, meeting: Meeting, now_s: float) -> list[Action]:
         actions: list[Action] = [*meeting.proceed(now_s)]
-        negotiation = meeting.negotiation
-        starts_s, round_ = negotiation.meeting_s, negotiation.round
-        if not meeting.has_started and starts_s is not None and self._is_due(starts_s, now_s):
-            meeting.has_started = True
-            detail = f"t_c_s={starts_s:.9f}"
-            actions.append(self._report(TaskEventKind.MEETING_STARTED, detail=detail))
-        if (agreed := negotiation.agreed) is not None and not meeting.is_agreed:
-            meeting.is_agreed = True
-            self._itinerary.agree(meeting.own_part(agreed), agreed.communication_s)
-            self._itinerary.heed_map(self._pose, meeting.over_s)
-            actions.append(self._report(TaskEventKind.ROUND_AGREED, round_=agreed.round))
-        if negotiation.obstacle is not None and not meeting.is_obstructed:
-            meeting.is_obstructed = True
-            detail = f"infeasible={negotiation.obstacle}"
-            actions.append(self._report(TaskEventKind.FAULT, detail=detail))
-        if self._is_due(meeting.over_s, now_s) and not meeting.is_agreed | meeting.is_overdue:
-            meeting.is_overdue = True
-            actions.append(self._report_disagreement("late", round_))
+        actions += [self._take_news(news, meeting) for news in meeting.news(now_s)]
         if (ending := meeting.ending(now_s)) is not None:
             actions += self._end_meeting(meeting, ending, now_s)
         return actions
+
+    def _take_news(self, news: News, meeting: Meeting) -> Action:
+        """Report what happens at the meeting; plan for the next one once it is agreed."""
+        negotiation = meeting.negotiation
+        match news:
+            case News.STARTED:
+                detail = f"t_c_s={negotiation.meeting_s:.9f}"
+                return self._report(TaskEventKind.MEETING_STARTED, detail=detail)
+            case News.AGREED:
+                agreed = negotiation.agreed
+                assert agreed is not None
+                self._agree(agreed, meeting.own_part(agreed), meeting.over_s)
+                return self._report(TaskEventKind.ROUND_AGREED, round_=agreed.round)
+            case News.OBSTRUCTED:
+                detail = f"infeasible={negotiation.obstacle}"
+                return self._report(TaskEventKind.FAULT, detail=detail)
+            case News.OVERDUE:
+                return self._report_disagreement("late", negotiation.round)
+
+    def _agree(self, strategy: TeamStrategy, own: Strategy, departure_s: float) -> None:
+        self._itinerary.agree(own, strategy.communication_s)
+        self._itinerary.heed_map(self._pose, departure_s)
 
     def _end_meeting(self, meeting: Meeting, ending: Ending, now_s: float) -> list[Action]:
         """Leave for the next place of meeting, whichever that is by how this one ended."""
@@ -258,8 +246,7 @@ class Brain:
         self._round = window + 1 if agreed is None else agreed.round
         if own is not None and confirmed is not None:
             if not meeting.is_agreed:
-                self._itinerary.agree(own, confirmed.communication_s)
-                self._itinerary.heed_map(self._pose, now_s)
+                self._agree(confirmed, own, now_s)
             if meeting.is_prolonged:
                 self._itinerary.delay()
             return [*actions, *self._set_out(now_s)]
@@ -299,7 +286,7 @@ class Brain:
             return self._recover(driving.displaced_m, pose, now_s)
         if driving.is_closed:
             return [Drive(0.0, 0.0), *self._set_out_anew(pose, now_s)]
-        if not self._is_due(driving.control_s, now_s):
+        if not is_due(driving.control_s, now_s):
             return []
         control = driving.follower.control(pose, now_s)
         if control is not None:
@@ -341,7 +328,7 @@ class Brain:
         return [self._report(TaskEventKind.ACTION_STARTED, step, self._itinerary.done + 1)]
 
     def _act(self, acting: Acting, now_s: float) -> list[Action]:
-        if not self._is_due(acting.until_s, now_s):
+        if not is_due(acting.until_s, now_s):
             return []
         has_acted = acting.step.action is not None
         if has_acted and self._settings.faults.strikes():
@@ -365,10 +352,6 @@ class Brain:
         off_rad = abs(wrap_angle(actual.yaw_rad - expected.yaw_rad))
         is_near = off_m <= self._settings.position_tolerance_m and off_rad <= _YAW_TOLERANCE_RAD
         return expected if is_near else actual
-
-    @staticmethod
-    def _is_due(time_s: float, now_s: float) -> bool:
-        return now_s >= time_s - RESOLUTION_S
 
     def _report(
         self,

@@ -1,6 +1,8 @@
 """One meeting, from the arrival at the place to leaving it.
 
 ``Meeting``  the negotiation, and how long it is worth staying for it
+``News``     what happens there
+``is_due``   whether a time has come
 
 A meeting begins with the last arrival, t_c, and lasts for D_c. Whoever then holds the strategy as
 agreed, and sees that its neighbours do, leaves. On a bad network some don't:
@@ -15,6 +17,7 @@ How the team comes together again is said in ``protocol.whereabouts``.
 
 import math
 from collections.abc import Callable
+from enum import Enum
 from typing import Final
 
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
@@ -23,10 +26,24 @@ from tlcomm_core.protocol.negotiation import Negotiation
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.protocol.whereabouts import Ending
 
-__all__ = ["RESOLUTION_S", "Meeting"]
+__all__ = ["Meeting", "News", "is_due"]
 
-RESOLUTION_S: Final = 1e-9
-"""Simulated time has nanoseconds: a time less than this ahead has come."""
+# Simulated time has nanoseconds: a time less than this ahead has come.
+_RESOLUTION_S: Final = 1e-9
+
+
+def is_due(time_s: float, now_s: float) -> bool:
+    """Tell whether a time has come."""
+    return now_s >= time_s - _RESOLUTION_S
+
+
+class News(Enum):
+    """What happens at a meeting, each at most once."""
+
+    STARTED = "everybody is there, and t_c has come"
+    AGREED = "the next meeting is agreed"
+    OBSTRUCTED = "the next window can't be met in"
+    OVERDUE = "it is over without agreement"
 
 
 class Meeting:
@@ -34,10 +51,6 @@ class Meeting:
 
     Attributes:
         negotiation: what is said.
-        has_started: whether the beginning was reported.
-        is_agreed: whether the agreement was.
-        is_obstructed: whether it was that the next window can't be met in.
-        is_overdue: whether it was that the meeting is over without one.
     """
 
     def __init__(
@@ -56,10 +69,7 @@ class Meeting:
             way_s: how long it takes to go straight to a place of the next meeting.
         """
         self.negotiation: Final = negotiation
-        self.has_started = False
-        self.is_agreed = False
-        self.is_obstructed = False
-        self.is_overdue = False
+        self._told: set[News] = set()
         self._own = own
         self._linger_s = team.linger_s
         self._duration_s = team.duration_s
@@ -86,9 +96,29 @@ class Meeting:
             self._settled_s = min(self._settled_s, now_s)
         return actions
 
+    def news(self, now_s: float) -> tuple[News, ...]:
+        """Return what has happened since this was last asked."""
+        negotiation = self.negotiation
+        is_agreed = negotiation.agreed is not None
+        starts_s = negotiation.meeting_s
+        happened = {
+            News.STARTED: starts_s is not None and is_due(starts_s, now_s),
+            News.AGREED: is_agreed,
+            News.OBSTRUCTED: negotiation.obstacle is not None,
+            News.OVERDUE: is_due(self.over_s, now_s) and not is_agreed,
+        }
+        news = tuple(kind for kind in News if happened[kind] and kind not in self._told)
+        self._told.update(news)
+        return news
+
     def own_part(self, strategy: TeamStrategy) -> Strategy:
         """Return this agent's part in a team strategy."""
         return next(own for own in strategy.strategies if own.agent == self._own)
+
+    @property
+    def is_agreed(self) -> bool:
+        """Whether the news has been told that the next meeting is agreed."""
+        return News.AGREED in self._told
 
     @property
     def over_s(self) -> float:
@@ -110,15 +140,15 @@ class Meeting:
     def next_change_s(self) -> float:
         """When it starts, is over or is to be left, as far as that is known."""
         starts_s = self.negotiation.meeting_s
-        if starts_s is not None and not self.has_started:
+        if starts_s is not None and News.STARTED not in self._told:
             return min(starts_s, self._stays_until_s)
-        if self.is_agreed or self.is_overdue:
+        if not self._told.isdisjoint((News.AGREED, News.OVERDUE)):
             return self._stays_until_s
         return min(self.over_s, self._stays_until_s)
 
     def ending(self, now_s: float) -> Ending | None:
         """Return how the meeting has ended for this agent, if it is time to leave."""
-        if now_s < self._stays_until_s - RESOLUTION_S:
+        if not is_due(self._stays_until_s, now_s):
             return None
         if self.negotiation.agreed is not None:
             return Ending.AGREED
