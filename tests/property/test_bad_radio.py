@@ -1,19 +1,18 @@
 """Whole runs over a bad radio."""
 
-import random
 from collections import defaultdict
 from functools import cache
 from pathlib import Path
 
 import pytest
 
+from support.shuffling import Shuffling
 from tlcomm_core.mission import Mission
 from tlcomm_core.records import event_log
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.model import Radio
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import Simulated, simulate
-from tlcomm_core.world.lockstep import LockStep, Step
 
 CORRIDOR = load_scenario(Path(__file__).parents[2] / "scenarios" / "corridor.yaml")
 BAD = Radio(loss=0.1, loss_at_range=0.3, jitter_s=0.05, duplication=0.1, bandwidth_bps=3e5)
@@ -78,18 +77,7 @@ def test_a_narrow_band_congests() -> None:
 
 def test_the_order_in_which_members_act_does_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
     """Ticked in any order within each instant, they hear and decide the same."""
-    shuffler = random.Random(7)  # noqa: S311 (any order will do)
-    original, shuffled = LockStep.next_step, 0
-
-    def next_step(lockstep: LockStep) -> Step | None:
-        nonlocal shuffled
-        step = original(lockstep)
-        if step is None:
-            return None
-        ticked = tuple(shuffler.sample(step.ticked, len(step.ticked)))
-        shuffled += ticked != step.ticked
-        return Step(step.time_ns, step.observations, ticked, step.arrived)
-
-    monkeypatch.setattr(LockStep, "next_step", next_step)
-    assert log_of(over(BAD)) == log_of(bad_run())
-    assert shuffled > 50
+    expected = log_of(bad_run())
+    shuffling = Shuffling(monkeypatch)
+    assert log_of(over(BAD)) == expected
+    assert shuffling.count > 50

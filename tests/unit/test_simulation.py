@@ -1,6 +1,5 @@
 """Whole teams in one process: they meet in time, agree, and never act on what they can't hear."""
 
-import random
 import re
 from bisect import bisect_right
 from collections import defaultdict
@@ -13,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
+from support.shuffling import Shuffling
 from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.agent.channel import Channel
 from tlcomm_core.agent.radio import Radio
@@ -26,7 +26,6 @@ from tlcomm_core.scenario.model import Faults, Noise, Scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import Simulated, simulate
 from tlcomm_core.units import nanoseconds
-from tlcomm_core.world.lockstep import LockStep, Step
 from tlcomm_core.world.radio import is_connected, links
 from tlcomm_core.world.unicycle import integrate
 
@@ -227,22 +226,9 @@ def test_the_order_in_which_members_act_does_not_matter(
 ) -> None:
     """Ticked in any order within each instant, they decide the same."""
     expected = log_of(run(label))
-    shuffler = random.Random(7)  # noqa: S311 (any order will do)
-    original = LockStep.next_step
-    shuffled = 0
-
-    def next_step(lockstep: LockStep) -> Step | None:
-        nonlocal shuffled
-        step = original(lockstep)
-        if step is None:
-            return None
-        ticked = tuple(shuffler.sample(step.ticked, len(step.ticked)))
-        shuffled += ticked != step.ticked
-        return Step(step.time_ns, step.observations, ticked, step.arrived)
-
-    monkeypatch.setattr(LockStep, "next_step", next_step)
+    shuffling = Shuffling(monkeypatch)
     assert log_of(simulate(mission_of(label))) == expected
-    assert shuffled > 50
+    assert shuffling.count > 50
 
 
 @pytest.mark.parametrize(("label", "noise"), [("corridor", 0.1), ("plant", 0.05)])

@@ -39,6 +39,10 @@ BAD_VALUES = [
     (["run", CORRIDOR, "--pace", "fast"], "expected 'lockstep' or a factor greater than 0"),
     (["run", CORRIDOR, "--pace", "0"], "(1.0 is real time), not '0'"),
     (["run", CORRIDOR, "--pace", "-1"], "not '-1'"),
+    (
+        ["bench", CORRIDOR, "--solvers", "--agents", "1"],
+        "--agents: expected a whole number from 2 to 1000, not '1'",
+    ),
     (["bench", CORRIDOR, "--repeats", "0"], "--repeats: expected a whole number from 1 on"),
 ]
 

@@ -18,6 +18,7 @@ from tlcomm_core.mission import Mission
 from tlcomm_core.planning.product import build
 from tlcomm_core.planning.synthesis import plan_task
 from tlcomm_core.scenario.loader import load_scenario
+from tlcomm_core.scenario.model import MAX_AGENTS
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate
 from tlcomm_core.units import seconds
@@ -29,7 +30,7 @@ from tlcomm_tools.rounds import pose_round
 from tlcomm_tools.solver_bench import SolverRow, growth, measure_solvers
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_number, format_table
-from tlcomm_tools.verbs.options import positive_int, print_json
+from tlcomm_tools.verbs.options import positive_int, print_json, team_size
 
 __all__ = ["EXAMPLE", "add_arguments", "run"]
 
@@ -49,7 +50,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         "--agents",
-        type=positive_int,
+        type=team_size(MAX_AGENTS),
         nargs="+",
         default=tuple(INSTANCES),
         metavar="N",

@@ -2,7 +2,7 @@
 
 import math
 import statistics
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentParser, Namespace
 from typing import Any, Final
 
 from tlcomm_core.errors import InputError
@@ -17,6 +17,7 @@ from tlcomm_tools.verbs.options import (
     positive_int,
     print_json,
     share,
+    team_size,
 )
 
 __all__ = ["EXAMPLE", "add_arguments", "run"]
@@ -30,7 +31,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the verb's arguments."""
     parser.add_argument(
         "--agents",
-        type=_team_size,
+        type=team_size(MOST_AGENTS),
         nargs="+",
         default=[8],
         metavar="N",
@@ -97,12 +98,6 @@ def run(options: Namespace) -> Status:
     else:
         print(_format(measured, options))
     return Status.FINE
-
-
-def _team_size(text: str) -> int:
-    if text.isdecimal() and 1 < int(text) <= MOST_AGENTS:
-        return int(text)
-    raise ArgumentTypeError(f"expected a whole number from 2 to {MOST_AGENTS}, not {text!r}")
 
 
 def _measure(campaign: Campaign) -> dict[str, Any]:

@@ -5,7 +5,7 @@
 ``add_seed_argument``      what chance is drawn from
 ``add_solver_argument``    how rounds are solved
 ``positive_int``, ``not_negative_int``, ``positive_float``, ``positive_fraction``   types
-``not_negative_float``, ``share``, ``seed``   more types
+``not_negative_float``, ``share``, ``seed``, ``team_size``   more types
 ``pace``, ``method``, ``solver``  more types
 ``mission_end``            how long to run
 ``print_json``             one document on standard output
@@ -14,7 +14,7 @@
 import argparse
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, Final
@@ -42,12 +42,14 @@ __all__ = [
     "seed",
     "share",
     "solver",
+    "team_size",
 ]
 
 LOCKSTEP: Final = "lockstep"
 METHODS: Final = ("team",)
 _LATER_METHODS: Final = ("static", "pairwise", "all-time")
 _DEFAULT_ROUNDS: Final = 5
+_LEAST_TEAM: Final = 2
 # As large as a parameter of a ROS node may be.
 _MOST_SEED: Final = 2**63 - 1
 _LEAST_FRACTION: Final = Fraction(1, 10**9)
@@ -78,6 +80,20 @@ def seed(text: str) -> int:
             f"expected a whole number from 0 to {_MOST_SEED}, not {text!r}"
         )
     return value
+
+
+def team_size(most: int) -> Callable[[str], int]:
+    """Return a type: a whole number of agents that can meet, up to so many."""
+
+    def read(text: str) -> int:
+        value = _whole(text)
+        if value is None or not _LEAST_TEAM <= value <= most:
+            raise argparse.ArgumentTypeError(
+                f"expected a whole number from {_LEAST_TEAM} to {most}, not {text!r}"
+            )
+        return value
+
+    return read
 
 
 def positive_float(text: str) -> float:
