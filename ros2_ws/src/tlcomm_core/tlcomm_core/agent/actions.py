@@ -6,10 +6,11 @@
 ``HoldStrategy``  publish the team strategy that this agent holds as agreed
 ``CountIgnored``  count a message that was late, duplicate, foreign or malformed
 ``Action``        any of them
+``Fault``         what an agent copes with
 """
 
 from dataclasses import dataclass
-from enum import IntEnum
+from enum import IntEnum, StrEnum
 from typing import Final
 
 from tlcomm_core.protocol.actions import CountIgnored, HoldStrategy, SendMessage
@@ -18,6 +19,7 @@ __all__ = [
     "Action",
     "CountIgnored",
     "Drive",
+    "Fault",
     "HoldStrategy",
     "ReportTask",
     "SendMessage",
@@ -26,8 +28,24 @@ __all__ = [
 ]
 
 
-_DISAGREEMENT: Final = "agreement="
-_COPED_WITH: Final = ("infeasible=", "displaced_m=", "cut_off_m=", "blocked=", _DISAGREEMENT)
+class Fault(StrEnum):
+    """What an agent copes with: the first key in the detail of a ``FAULT``."""
+
+    FAILED = "action"
+    """An action failed, and is begun anew."""
+    DISPLACED = "displaced_m"
+    """Something has put the agent so far off its way."""
+    CUT_OFF = "cut_off_m"
+    """The map keeps it so far from the place of meeting."""
+    BLOCKED = "blocked"
+    """It has no plan round what the map has closed."""
+    INFEASIBLE = "infeasible"
+    """Nobody can plan a meeting in the next window."""
+    DISAGREEMENT = "agreement"
+    """A meeting is over, or was left, without agreement on the next."""
+
+
+_COPED_WITH: Final = tuple(f"{fault}=" for fault in Fault)
 
 
 class TaskEventKind(IntEnum):
@@ -68,18 +86,14 @@ class TaskEvent:
 
     @property
     def is_coped_with(self) -> bool:
-        """Whether it is a fault after which the agent goes on.
-
-        These are failed actions, displacements, ways that the map has closed, and meetings that end
-        without agreement.
-        """
-        is_fault = self.kind is TaskEventKind.FAULT
-        return is_fault and (bool(self.action) or self.detail.startswith(_COPED_WITH))
+        """Whether it is a fault after which the agent goes on."""
+        is_known = self.detail.startswith(_COPED_WITH)
+        return self.is_failed_attempt or (self.kind is TaskEventKind.FAULT and is_known)
 
     @property
     def is_disagreement(self) -> bool:
         """Whether a meeting is over, or was left, without agreement on the next."""
-        return self.kind is TaskEventKind.FAULT and self.detail.startswith(_DISAGREEMENT)
+        return self.kind is TaskEventKind.FAULT and self.detail.startswith(f"{Fault.DISAGREEMENT}=")
 
     @property
     def is_failed_attempt(self) -> bool:

@@ -18,7 +18,7 @@ At t = 0 the team is connected: the first odometry finds the agent at the meetin
 
 import math
 
-from tlcomm_core.agent.actions import Action, Drive, ReportTask, TaskEvent, TaskEventKind
+from tlcomm_core.agent.actions import Action, Drive, Fault, ReportTask, TaskEvent, TaskEventKind
 from tlcomm_core.agent.activities import Acting, Driving
 from tlcomm_core.agent.controller import Follower
 from tlcomm_core.agent.events import (
@@ -197,7 +197,7 @@ class Brain:
         try:
             plan = self._settings.planner(itinerary.task, self._pose, itinerary.travel)
         except PlanningError as error:
-            return self._report(TaskEventKind.FAULT, detail=f"blocked={error}")
+            return self._report_fault(Fault.BLOCKED, str(error))
         itinerary.plan_anew(plan)
         return self._report(TaskEventKind.PLAN_CHANGED)
 
@@ -221,8 +221,7 @@ class Brain:
                 self._agree(agreed, meeting.own_part(agreed), meeting.over_s)
                 return self._report(TaskEventKind.ROUND_AGREED, round_=agreed.round)
             case News.OBSTRUCTED:
-                detail = f"infeasible={negotiation.obstacle}"
-                return self._report(TaskEventKind.FAULT, detail=detail)
+                return self._report_fault(Fault.INFEASIBLE, str(negotiation.obstacle))
             case News.OVERDUE:
                 return self._report_disagreement("late", negotiation.round)
 
@@ -257,7 +256,7 @@ class Brain:
         return [*actions, *self._set_out(now_s)]
 
     def _report_disagreement(self, how: str, round_: int) -> ReportTask:
-        return self._report(TaskEventKind.FAULT, detail=f"agreement={how} round={round_}")
+        return self._report_fault(Fault.DISAGREEMENT, f"{how} round={round_}")
 
     # Driving and acting.
 
@@ -277,8 +276,8 @@ class Brain:
         self._activity = Driving(leg, follower, meeting, now_s)
         if meeting is None or not self._itinerary.is_cut_off(self._pose):
             return []
-        detail = f"cut_off_m={leg.arrival.distance_m(meeting.x_m, meeting.y_m):.3f}"
-        return [self._report(TaskEventKind.FAULT, detail=detail)]
+        apart_m = leg.arrival.distance_m(meeting.x_m, meeting.y_m)
+        return [self._report_fault(Fault.CUT_OFF, f"{apart_m:.3f}")]
 
     def _drive(self, driving: Driving, now_s: float) -> list[Action]:
         pose = self._reckoning.pose_at(now_s)
@@ -309,7 +308,7 @@ class Brain:
 
     def _recover(self, displaced_m: float, pose: Pose, now_s: float) -> list[Action]:
         """Go on from where something has put the agent, as far as there is time to."""
-        detail = f"displaced_m={displaced_m:.3f}"
+        detail = f"{Fault.DISPLACED}={displaced_m:.3f}"
         fault = self._report(
             TaskEventKind.FAULT, plan_index=self._itinerary.done + 1, detail=detail
         )
@@ -341,7 +340,7 @@ class Brain:
         return [*actions, *self._set_out(now_s)]
 
     def _fail(self, step: PlanStep) -> Action:
-        detail = f"action={step.action} attempt={self._itinerary.fail_step()}"
+        detail = f"{Fault.FAILED}={step.action} attempt={self._itinerary.fail_step()}"
         return self._report(TaskEventKind.FAULT, step, self._itinerary.done + 1, detail=detail)
 
     # Where and when it is.
@@ -352,6 +351,9 @@ class Brain:
         off_rad = abs(wrap_angle(actual.yaw_rad - expected.yaw_rad))
         is_near = off_m <= self._settings.position_tolerance_m and off_rad <= _YAW_TOLERANCE_RAD
         return expected if is_near else actual
+
+    def _report_fault(self, fault: Fault, what: str) -> ReportTask:
+        return self._report(TaskEventKind.FAULT, detail=f"{fault}={what}")
 
     def _report(
         self,
