@@ -8,6 +8,7 @@ import networkx as nx
 import numpy as np
 import pytest
 
+from tlcomm_core.game.solver import BEST_RESPONSE, DEFAULT, Solver
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.metrics import connected_intervals
 from tlcomm_core.mission import Mission
@@ -49,10 +50,10 @@ def random_team(seed: int) -> Scenario:
     )
 
 
-def run(scenario: Scenario) -> tuple[RunRecords, int]:
+def run(scenario: Scenario, solver: Solver = DEFAULT) -> tuple[RunRecords, int]:
     """Return the records of a run and its end."""
     limit_s = (ROUNDS + 2) * scenario.communication.period_s
-    simulated = simulate(Mission(Site.from_scenario(scenario), 1, ROUNDS, limit_s))
+    simulated = simulate(Mission(Site.from_scenario(scenario), 1, ROUNDS, limit_s, solver))
     return simulated.records, simulated.sim_ns
 
 
@@ -119,7 +120,7 @@ def test_the_plant_meets_as_demanded() -> None:
 def test_without_demands_places_are_shared_and_hang_on_single_agents() -> None:
     """The same plant without them breaks them: what the other tests see isn't there anyway."""
     scenario = load_scenario(PLANT)
-    records, _ = run(scenario)
+    records, _ = run(scenario, BEST_RESPONSE)
     for name in ("apart", "resilient"):
         asked = demanding(scenario, name)
         assert not all(is_as_demanded(own.strategy, asked) for own in records.strategies)

@@ -24,6 +24,7 @@ from tlcomm_core.agent.actions import (
 from tlcomm_core.agent.controller import Pacing
 from tlcomm_core.agent.events import MessageHeard, OdometryReceived, TimePassed
 from tlcomm_core.agent.member import Member, create
+from tlcomm_core.game.solver import BEST_RESPONSE
 from tlcomm_core.geometry import Pose
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.protocol.messages import Message, PlanOffer
@@ -103,7 +104,8 @@ class LoneAgent:
     def __post_init__(self) -> None:
         """Stand at the start, and see it."""
         site = self.site or hall(self.count, self.faults)
-        self.member = create(self.name, site, Pacing.EVENT, Atlas(site.grid, site.region_discs))
+        atlas = Atlas(site.grid, site.region_discs)
+        self.member = create(self.name, site, Pacing.EVENT, atlas, solver=BEST_RESPONSE)
         self.brain = self.member._brain
         self.pose = Pose(*STARTS[self.name])
         self.velocity = Drive(0.0, 0.0)

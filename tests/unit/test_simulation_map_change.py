@@ -7,6 +7,7 @@ import pytest
 
 from support.gate import CLOSED_S, OPENED_S, SHUT_S, gate
 from tlcomm_core.agent.actions import TaskEventKind
+from tlcomm_core.game.solver import BEST_RESPONSE
 from tlcomm_core.metrics import RunFacts, result_document
 from tlcomm_core.mission import Mission
 from tlcomm_core.records import event_log
@@ -19,7 +20,7 @@ END_S = 330.0
 
 def run() -> Simulated:
     """Return a new run."""
-    return simulate(Mission(Site.from_scenario(gate()), 0, None, END_S))
+    return simulate(Mission(Site.from_scenario(gate()), 0, None, END_S, BEST_RESPONSE))
 
 
 @cache

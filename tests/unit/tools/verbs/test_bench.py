@@ -16,3 +16,20 @@ def test_bench(capsys: pytest.CaptureFixture[str]) -> None:
     _, out, _ = run(capsys, "bench", CORRIDOR, "--repeats", "1", "--rounds", "1", "--json")
     (measured,) = json.loads(out)["scenarios"]
     assert all(measured[key] > 0.0 for key in ("plan_s", "solve_s", "own_solve_s", "simulate_s"))
+
+
+def test_bench_of_solvers(capsys: pytest.CaptureFixture[str]) -> None:
+    """Each solver has a row for the scenario's rounds and for random ones, next to the optimum."""
+    asked = ("bench", CORRIDOR, "--solvers", "--agents", "4", "--instances", "1")
+    status, out, err = run(capsys, *asked)
+    assert status == 0
+    assert "random 4 coalition" in err
+    assert max(map(len, out.splitlines())) <= 80
+    _, out, _ = run(capsys, *asked, "--json")
+    rows = json.loads(out)["solvers"]
+    assert {(row["instances"], row["solver"]) for row in rows} == {
+        (instances, solver)
+        for instances in ("corridor", "random")
+        for solver in ("best-response", "coalition", "exact")
+    }
+    assert all(row["mean_ratio"] >= 1.0 - 1e-9 for row in rows)

@@ -17,13 +17,13 @@ def test_round(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert (document["format"], document["round"]) == ("tlcomm-round/1", 2)
     _, out, _ = run(capsys, "simulate", CORRIDOR, "--rounds", "2", "--json")
     decided = json.loads(out)["rounds"][1]
-    assert document["nash"]["potential"] == pytest.approx(decided["potential"], abs=1e-6)
+    assert document["coalition"]["potential"] == pytest.approx(decided["potential"], abs=1e-6)
     arrivals_s = [
         own["arrival"][candidate][location]
         for own, candidate, location in zip(
             document["candidates"],
-            document["nash"]["candidate"],
-            document["nash"]["location"],
+            document["coalition"]["candidate"],
+            document["coalition"]["location"],
             strict=True,
         )
     ]

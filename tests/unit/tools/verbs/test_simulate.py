@@ -11,7 +11,7 @@ from support.command import CORRIDOR, refusal, run
 RESULT = {
     "scenario": "line",
     "method": "team",
-    "solver": "best-response",
+    "solver": "coalition",
     "seed": 0,
     "pace": "lockstep",
     "sim_s": 5.0,

@@ -9,7 +9,7 @@ from enum import Enum
 
 from tlcomm_core.game.candidates import ROUNDING_S
 from tlcomm_core.game.rules import PLAIN_RULES, Rules
-from tlcomm_core.game.solver import DEFAULT, Solver
+from tlcomm_core.game.solver import BEST_RESPONSE, Solver
 
 __all__ = ["OnInfeasible", "Team"]
 
@@ -53,7 +53,7 @@ class Team:
     planned_range_m: float
     period_s: float
     duration_s: float
-    solver: Solver = DEFAULT
+    solver: Solver = BEST_RESPONSE
     retry_s: float = 0.0125
     longest_retry_s: float = 0.1
     patience_s: float = 1.6

@@ -1,15 +1,18 @@
 """Measure planning, solving a round and simulating: medians over repeats, on this machine."""
 
 import statistics
+import sys
 import time
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Final
 
 from tlcomm_core.agent.avoidance import travel_of
 from tlcomm_core.agent.planner import local_plan
 from tlcomm_core.game.algorithm import solve
+from tlcomm_core.game.solver import SOLVERS
 from tlcomm_core.ltl import parse, translate
 from tlcomm_core.mission import Mission
 from tlcomm_core.planning.product import build
@@ -19,20 +22,45 @@ from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate
 from tlcomm_core.units import seconds
 from tlcomm_core.workspace.atlas import Atlas
+from tlcomm_tools.instances import INSTANCES, plant_rounds, random_rounds
 from tlcomm_tools.limit import time_limit_s
 from tlcomm_tools.problems import PROBLEMS, Problem
 from tlcomm_tools.rounds import pose_round
+from tlcomm_tools.solver_bench import SolverRow, growth, measure_solvers
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_number, format_table
 from tlcomm_tools.verbs.options import positive_int, print_json
 
 __all__ = ["EXAMPLE", "add_arguments", "run"]
 
+# Consecutive rounds of the scenario, and random ones of sizes without published figures.
+_SCENARIO_ROUNDS: Final = 30
+_FEWEST: Final = 3
+
 EXAMPLE: Final = "tlcomm bench scenarios/plant.yaml scenarios/corridor.yaml --repeats 5"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the verb's arguments."""
+    parser.add_argument(
+        "--solvers",
+        action="store_true",
+        help="measure the solvers instead, on the first scenario's rounds and on random ones",
+    )
+    parser.add_argument(
+        "--agents",
+        type=positive_int,
+        nargs="+",
+        default=tuple(INSTANCES),
+        metavar="N",
+        help=f"sizes of the random teams (default {' '.join(map(str, INSTANCES))}: half an hour)",
+    )
+    parser.add_argument(
+        "--instances",
+        type=positive_int,
+        metavar="K",
+        help="of each size (default as published: 30 of 8 agents, 10 of larger teams)",
+    )
     parser.add_argument(
         "scenarios", type=Path, nargs="+", metavar="SCENARIO", help="scenario files (YAML)"
     )
@@ -47,6 +75,8 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(options: Namespace) -> Status:
     """Measure and show the table."""
     sites = [Site.from_scenario(load_scenario(path)) for path in options.scenarios]
+    if options.solvers:
+        return _run_solvers(sites[0], options)
     measured = [_measure(site, options.repeats, options.rounds) for site in sites]
     planning = [_measure_planning(problem, options.repeats) for problem in PROBLEMS]
     if options.json:
@@ -63,6 +93,51 @@ def run(options: Namespace) -> Status:
         print(_format_measured(measured, options.repeats, options.rounds))
         print(f"\n{_format_planning(planning)}")
     return Status.FINE
+
+
+def _run_solvers(site: Site, options: Namespace) -> Status:
+    """Measure the solvers; rows are shown on standard error as they come."""
+    measured = [
+        plant_rounds(site, options.instances or _SCENARIO_ROUNDS),
+        *(
+            random_rounds(agents, options.instances or INSTANCES.get(agents, _FEWEST))
+            for agents in options.agents
+        ),
+    ]
+    rows = []
+    for row in measure_solvers(measured, tuple(SOLVERS.values())):
+        print(f"{row.instances} {row.agents} {row.solver}", file=sys.stderr)
+        rows.append(row)
+    if options.json:
+        print_json({"format": "tlcomm-bench/1", "solvers": [asdict(row) for row in rows]})
+    else:
+        print(_format_solvers(rows))
+    return Status.FINE
+
+
+def _format_solvers(rows: Sequence[SolverRow]) -> str:
+    cells = [
+        (
+            row.instances,
+            row.solver,
+            str(row.agents),
+            str(row.count),
+            format_number(1e3 * row.initial_s),
+            format_number(1e3 * row.agent_s),
+            format_number(row.mean_ratio, 3),
+            format_number(row.worst_ratio, 3),
+            row.reference,
+        )
+        for row in rows
+    ]
+    header = ("rounds", "solver", "N", "count", "S⁰/ms", "agent/ms", "mean", "worst", "of")
+    grown = [(solver, growth(rows, solver)) for solver in SOLVERS]
+    lines = [f"  {solver} grows like N^{p:.2f}" for solver, p in grown if p is not None]
+    return (
+        f"medians of processor time\n\n{format_table(header, cells, left=2)}\n\n"
+        "  agent        from S⁰ to one agent's proposal, or to all agents' equilibrium\n"
+        "  mean, worst  Φ over that of the solver named last\n" + "\n".join(lines)
+    )
 
 
 def _measure(site: Site, repeats: int, rounds: int) -> dict[str, Any]:

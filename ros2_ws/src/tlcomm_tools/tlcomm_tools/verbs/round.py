@@ -125,8 +125,8 @@ def _format_outcome(problem: RoundProblem, solver: Solver, solved: Solved) -> st
     least_s, moves = solved.solution.potentials_s[-1], solved.solution.iterations
     if solved.proposer is None:
         return f"Φ = {least_s:.3f} s after {moves} moves by {solver.name}"
-    proven = f"; none is below {solved.bound_s:.3f} s" if math.isfinite(solved.bound_s) else ""
+    proven = f", none is below {solved.bound_s:.3f} s" if math.isfinite(solved.bound_s) else ""
     return (
-        f"Φ = {least_s:.3f} s by {solver.name}: "
-        f"{problem.agents[solved.proposer]}'s proposal and {moves} moves{proven}"
+        f"Φ = {least_s:.3f} s by {solver.name}{proven}\n"
+        f"  {problem.agents[solved.proposer]}'s proposal, then {moves} moves"
     )
