@@ -68,7 +68,7 @@ class _Meeting:
 
     Attributes:
         potential_s: Φ.
-        slot: which of the places left over.
+        slot: which of the places left over, which are in ascending order.
         latest_s: τ.
     """
 
