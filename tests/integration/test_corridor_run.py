@@ -115,6 +115,7 @@ def test_lock_step_run_equals_the_simulation(
     )
     assert recorded.connectivity == expected.connectivity
     assert recorded.messages_sent == expected.messages_sent
+    assert recorded.bytes_sent == expected.bytes_sent
     assert recorded.messages_undelivered == expected.messages_undelivered
     assert segments == []
     assert processes(tmp_path) == {}
@@ -131,6 +132,7 @@ def test_lock_step_run_over_a_bad_radio_equals_the_simulation(tmp_path: Path) ->
     expected = simulate(Mission(Site.from_scenario(scenario), 0, 2, None)).records
     assert list(event_log(recorded)) == list(event_log(expected))
     assert recorded.messages_sent == expected.messages_sent
+    assert recorded.bytes_sent == expected.bytes_sent
     assert recorded.messages_undelivered == expected.messages_undelivered
     lost = {name: counts[LOST] for name, counts in recorded.messages_undelivered.items()}
     assert min(lost.values()) > 10

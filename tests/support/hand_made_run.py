@@ -12,6 +12,8 @@ from tlcomm_core.agent.actions import TaskEvent, TaskEventKind
 from tlcomm_core.agent.timing import RoundTiming
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose, quaternion_from_yaw
+from tlcomm_core.protocol.messages import Confirmation
+from tlcomm_core.protocol.size import size_bytes
 from tlcomm_core.records import RunRecords, StrategyRecord, TaskRecord
 from tlcomm_core.scenario.loader import dumps, loads
 from tlcomm_core.scenario.model import Scenario
@@ -23,6 +25,7 @@ from tlcomm_tools.bag.writer import BagWriter
 
 __all__ = [
     "AGENTS",
+    "BYTES",
     "END_S",
     "MESSAGES",
     "SHARE",
@@ -38,6 +41,10 @@ SHARE = Path(__file__).parents[2] / "ros2_ws" / "src" / "tlcomm_msgs"
 AGENTS = ("east", "west")
 END_S = 25.0
 MESSAGES = {"east": 3, "west": 2}
+BYTES = {
+    agent: count * size_bytes(Confirmation(agent, 1, 1, 7, (agent,)))
+    for agent, count in MESSAGES.items()
+}
 UNDELIVERED: Mapping[str, Mapping[str, int]] = {"east": {"out of range": 5, "lost": 2}, "west": {}}
 
 _SCENARIO = """
@@ -73,6 +80,7 @@ def hand_made_records() -> RunRecords:
     """Return fresh records of 25 s, of which a test may change anything."""
     records = RunRecords(
         messages_sent=dict(MESSAGES),
+        bytes_sent=dict(BYTES),
         messages_undelivered={agent: dict(counts) for agent, counts in UNDELIVERED.items()},
     )
     for number in (0, 1):

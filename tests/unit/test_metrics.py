@@ -5,7 +5,14 @@ from dataclasses import replace
 
 import pytest
 
-from support.hand_made_run import END_S, MESSAGES, hand_made_records, hand_made_scenario, task
+from support.hand_made_run import (
+    BYTES,
+    END_S,
+    MESSAGES,
+    hand_made_records,
+    hand_made_scenario,
+    task,
+)
 from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.metrics import RunFacts, connected_intervals, patience_s, result_document
 from tlcomm_core.records import RunRecords
@@ -139,6 +146,7 @@ def test_an_agents_figures() -> None:
         "makespan_s": pytest.approx(10.0),
         "distance_m": pytest.approx(10.0),
         "messages_sent": MESSAGES["east"],
+        "bytes_sent": BYTES["east"],
         "messages_undelivered": {"lost": 2, "out of range": 5},
     }
     assert agents["west"]["messages_undelivered"] == {}
@@ -149,9 +157,10 @@ def test_what_nobody_counted_is_unknown() -> None:
     """Records without counts of messages give null, not 0."""
     records = hand_made_records()
     records.messages_sent.clear()
+    records.bytes_sent.clear()
     records.messages_undelivered.clear()
     own = document(records)["agents"]["west"]
-    assert (own["messages_sent"], own["messages_undelivered"]) == (None, None)
+    assert (own["messages_sent"], own["bytes_sent"], own["messages_undelivered"]) == (None,) * 3
 
 
 def test_one_satisfaction_has_no_makespan() -> None:

@@ -19,6 +19,7 @@ from tlcomm_core.agent.radio import Radio
 from tlcomm_core.geometry import Pose
 from tlcomm_core.mission import Mission
 from tlcomm_core.protocol.messages import BestResponse, Message, PlanOffer
+from tlcomm_core.protocol.size import size_bytes
 from tlcomm_core.records import event_log
 from tlcomm_core.scenario.generator import random_scenario
 from tlcomm_core.scenario.loader import load_scenario
@@ -315,10 +316,14 @@ def test_the_filter_decides_what_agents_do(monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_messages_are_shown_as_they_are_said() -> None:
-    """As many as the records count, by each sender."""
+    """As many as the records count, and as long, by each sender."""
     said: list[Message] = []
-    sent = simulate(mission_of("corridor"), on_message=said.append).records.messages_sent
-    assert {name: sum(m.sender == name for m in said) for name in sent} == sent
+    records = simulate(mission_of("corridor"), on_message=said.append).records
+    sizes = {
+        name: [size_bytes(m) for m in said if m.sender == name] for name in records.messages_sent
+    }
+    assert {name: len(own) for name, own in sizes.items()} == records.messages_sent
+    assert {name: sum(own) for name, own in sizes.items()} == records.bytes_sent
     assert {type(message) for message in said} > {PlanOffer, BestResponse}
 
 

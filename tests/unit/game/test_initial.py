@@ -56,9 +56,9 @@ def test_a_round_without_common_place_is_infeasible(make_problem: MakeProblem) -
         initial_profile(problem)
 
 
-def test_the_best_place_is_found_beyond_the_first_chunk(make_problem: MakeProblem) -> None:
-    """Lower bounds that mislead don't end the search: the last of 300 places is the best."""
-    # A bound of 0 everywhere: b can be early, or without detour, but never both.
+def test_promising_places_do_not_mislead(make_problem: MakeProblem) -> None:
+    """The last of 300 places is the best, though b can be early or without detour everywhere."""
+    # Elsewhere never both at once.
     deceptive = [[(60.0, 50.0)] * 299 + [(60.0, 1.0)], [(110.0, 0.0)] * 299 + [(61.0, 0.5)]]
     problem = make_problem(
         [(float(x), 0.0) for x in range(300)], 1.0, a=[[(60.0, 0.0)] * 300], b=deceptive

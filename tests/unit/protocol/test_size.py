@@ -12,8 +12,8 @@ OFFER = MemberOffer("b", 1.0, 2.0, 3.0, 0.0, 1.0, 1.5, (STOP, STOP), ("danger",)
 
 
 def test_a_confirmation_is_counted_by_hand() -> None:
-    """4 of encapsulation, 8 + 8 of header, 6 + 2, 4 + 4, then 8, 4, and 4 + 2."""
-    assert size_bytes(Confirmation("b", 1, 2, 7, ("b",))) == 4 + 16 + 8 + 8 + 8 + 4 + 6
+    """4 of encapsulation, 8 + 8 of header, 6 + 2, 4 + 4, then 8, 4, 4 + 2, and 2 to fill."""
+    assert size_bytes(Confirmation("b", 1, 2, 7, ("b",))) == 4 + 16 + 8 + 8 + 8 + 4 + 6 + 2
 
 
 def test_names_count_by_their_bytes() -> None:

@@ -221,6 +221,7 @@ def _agent(name: str, records: RunRecords) -> dict[str, Any]:
             earlier.distance_m(later.x_m, later.y_m) for earlier, later in pairwise(poses)
         ),
         "messages_sent": records.messages_sent.get(name),
+        "bytes_sent": records.bytes_sent.get(name),
         "messages_undelivered": _undelivered(name, records),
     }
 

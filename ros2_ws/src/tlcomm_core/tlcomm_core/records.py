@@ -42,6 +42,7 @@ class RunRecords:
 
     Attributes:
         messages_sent: per agent, how many messages it said.
+        bytes_sent: per agent, how long these were together, each as it is serialised.
         messages_undelivered: per agent, by reason, how many of the others' its radio didn't let
             through.
     """
@@ -52,6 +53,7 @@ class RunRecords:
     odometry: list[Odometry] = field(default_factory=list)
     connectivity: list[Connectivity] = field(default_factory=list)
     messages_sent: dict[str, int] = field(default_factory=dict)
+    bytes_sent: dict[str, int] = field(default_factory=dict)
     messages_undelivered: dict[str, Mapping[str, int]] = field(default_factory=dict)
 
 

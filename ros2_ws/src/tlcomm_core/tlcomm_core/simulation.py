@@ -23,6 +23,7 @@ from tlcomm_core.agent.member import Member, create
 from tlcomm_core.agent.timing import TimedMember
 from tlcomm_core.mission import Mission, create_world
 from tlcomm_core.protocol.messages import Message
+from tlcomm_core.protocol.size import size_bytes
 from tlcomm_core.records import RunRecords, StrategyRecord, TaskRecord
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.workspace.atlas import Atlas
@@ -84,7 +85,8 @@ class _Harness:
     def __init__(self, mission: Mission, on_message: Callable[[Message], None] | None) -> None:
         self._on_message = on_message
         scenario = mission.site.scenario
-        self.left = Simulated(RunRecords(messages_sent=dict.fromkeys(scenario.agents, 0)))
+        silent = dict.fromkeys(scenario.agents, 0)
+        self.left = Simulated(RunRecords(messages_sent=silent, bytes_sent=silent.copy()))
         atlas = Atlas(mission.site.grid, mission.site.region_discs)
         self._members: dict[str, Member] = {
             name: create(name, mission.site, Pacing.EVENT, atlas, mission.seed, mission.solver)
@@ -161,6 +163,7 @@ class _Harness:
 
     def _broadcast(self, sender: str, message: Message, now_ns: int) -> None:
         self.left.records.messages_sent[sender] += 1
+        self.left.records.bytes_sent[sender] += size_bytes(message)
         if self._on_message is not None:
             self._on_message(message)
         for name, member in self._members.items():

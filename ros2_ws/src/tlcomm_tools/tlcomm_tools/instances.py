@@ -3,6 +3,7 @@
 ``Instances``      some problems of one kind and size
 ``plant_rounds``   consecutive rounds of a scenario
 ``random_rounds``  first rounds of random scenarios
+``random_site``    such a scenario
 ``INSTANCES``      how many of which size the published figures are about
 """
 
@@ -19,7 +20,7 @@ from tlcomm_core.scenario.generator import random_scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_tools.rounds import pose_first_round, pose_rounds
 
-__all__ = ["INSTANCES", "Instances", "plant_rounds", "random_rounds"]
+__all__ = ["INSTANCES", "Instances", "plant_rounds", "random_rounds", "random_site"]
 
 INSTANCES: Final = MappingProxyType({8: 30, 20: 10, 50: 10, 100: 10})
 """Random rounds by number of agents."""
@@ -64,11 +65,20 @@ def random_rounds(agents: int, count: int) -> Instances:
         agents: N.
         count: how many; the seeds are 1, 2, ….
     """
-    side_m = _CELL_M * round(math.sqrt(agents * _AREA_M2) / _CELL_M)
 
     def problem(index: int) -> RoundProblem:
-        rng = np.random.default_rng(index + 1)
-        scenario = random_scenario(rng, agents, (side_m, side_m), _CELL_M)
-        return pose_first_round(Site.from_scenario(scenario))
+        return pose_first_round(random_site(agents, index))
 
     return Instances("random", agents, count, problem)
+
+
+def random_site(agents: int, index: int) -> Site:
+    """Return a random scenario, in a workspace that grows with the team.
+
+    Args:
+        agents: N.
+        index: the seed less one.
+    """
+    side_m = _CELL_M * round(math.sqrt(agents * _AREA_M2) / _CELL_M)
+    rng = np.random.default_rng(index + 1)
+    return Site.from_scenario(random_scenario(rng, agents, (side_m, side_m), _CELL_M))

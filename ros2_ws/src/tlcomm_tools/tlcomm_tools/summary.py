@@ -85,10 +85,11 @@ def _format_agents(agents: Mapping[str, Mapping[str, Any]]) -> str:
             format_number(own["makespan_s"]),
             format_number(own["distance_m"]),
             format_number(own["messages_sent"], 0),
+            format_number(own["bytes_sent"], 0),
         )
         for name, own in agents.items()
     ]
-    return format_table(("agent", "tasks", "makespan/s", "distance/m", "messages"), rows)
+    return format_table(("agent", "tasks", "makespan/s", "distance/m", "messages", "bytes"), rows)
 
 
 def _format_rounds(rounds: Sequence[Mapping[str, Any]]) -> str:

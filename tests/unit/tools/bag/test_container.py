@@ -40,13 +40,15 @@ def test_other_writers_files(tmp_path: Path, compression: CompressionType, chunk
     }
     assert container.messages == [(1, 5, b"one"), (1, 3, b"two")]
     assert (container.counts, container.end_ns, container.damage) == ({1: 2}, 5, "")
+    assert container.lengths == {1: 8}
 
 
 def test_unwanted_messages_are_only_counted(tmp_path: Path) -> None:
-    """What isn't wanted isn't kept, but counts and times include it."""
+    """What isn't wanted isn't kept, but counts, lengths and times include it."""
     write_foreign(tmp_path / "a.mcap", CompressionType.NONE)
     container = read_container(tmp_path / "a.mcap", lambda _: False)
     assert (container.messages, container.counts, container.end_ns) == ([], {1: 2}, 5)
+    assert container.lengths == {1: 8}
 
 
 def test_every_cut_of_a_file_is_readable(tmp_path: Path) -> None:

@@ -9,7 +9,15 @@ import pytest
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
-from support.hand_made_run import AGENTS, SHARE, hand_made_records, serialize_run, write_bag
+from support.hand_made_run import (
+    AGENTS,
+    BYTES,
+    MESSAGES,
+    SHARE,
+    hand_made_records,
+    serialize_run,
+    write_bag,
+)
 from tlcomm_core.errors import InputError
 from tlcomm_core.records import RunRecords, event_log
 from tlcomm_core.world.observation import Connectivity
@@ -26,6 +34,7 @@ def assert_equal(read: RunRecords, written: RunRecords) -> None:
     assert read.connectivity == written.connectivity
     assert sorted(read.timings, key=repr) == sorted(written.timings, key=repr)
     assert read.messages_sent == written.messages_sent
+    assert read.bytes_sent == written.bytes_sent
     assert read.messages_undelivered == written.messages_undelivered
 
 
@@ -109,6 +118,8 @@ def test_a_bag_in_several_files(tmp_path: Path) -> None:
     run = read_run(tmp_path / "bag")
     assert list(event_log(run.records)) == list(event_log(hand_made_records()))
     assert run.records.messages_sent == {"east": 4, "west": 3}
+    one = {agent: length // MESSAGES[agent] for agent, length in BYTES.items()}
+    assert run.records.bytes_sent == {"east": 4 * one["east"], "west": 3 * one["west"]}
 
 
 def test_a_bag_without_metadata(tmp_path: Path) -> None:

@@ -33,3 +33,16 @@ def test_bench_of_solvers(capsys: pytest.CaptureFixture[str]) -> None:
         for solver in ("best-response", "coalition", "exact")
     }
     assert all(row["mean_ratio"] >= 1.0 - 1e-9 for row in rows)
+
+
+def test_bench_of_traffic(capsys: pytest.CaptureFixture[str]) -> None:
+    """Each solver has a row for each size; JSON has the same figures."""
+    asked = ("bench", CORRIDOR, "--traffic", "--agents", "3", "--instances", "1")
+    status, out, _ = run(capsys, *asked)
+    assert status == 0
+    assert "coalition" in out
+    assert max(map(len, out.splitlines())) <= 80
+    _, out, _ = run(capsys, *asked, "--json")
+    rows = json.loads(out)["traffic"]
+    assert {row["solver"] for row in rows} >= {"best-response", "coalition"}
+    assert all(row["agents"] == 3 for row in rows)

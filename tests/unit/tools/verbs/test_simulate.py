@@ -25,6 +25,7 @@ RESULT = {
             "makespan_s": None,
             "distance_m": 0.0,
             "messages_sent": None,
+            "bytes_sent": None,
             "messages_undelivered": None,
         }
     },

@@ -4,8 +4,9 @@
 
 Counted, not measured, so that it is known without ROS: the fields as the ``.msg`` files list them,
 in the plain encoding of the Common Data Representation (OMG DDS-XTypes 1.3, XCDR version 1), with
-its alignment, four bytes of encapsulation and the header's stamp and frame. What UDP and the
-middleware wrap around it isn't counted.
+its alignment, four bytes of encapsulation and the header's stamp and frame, and filled up to whole
+words of four bytes, in which DDS sends it (OMG DDSI-RTPS 2.3, 9.4.1). What UDP and the middleware
+wrap around it isn't counted.
 """
 
 from collections.abc import Collection
@@ -18,6 +19,7 @@ from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, P
 __all__ = ["size_bytes"]
 
 _ENCAPSULATION: Final = 4
+_WORD: Final = 4
 _FRAME: Final = "map"
 _SHORT, _INT, _DOUBLE = 2, 4, 8
 
@@ -55,7 +57,7 @@ def size_bytes(message: Message) -> int:
             layout.texts(message.confirmed)
         case _:
             assert_never(message)
-    return _ENCAPSULATION + layout.end
+    return _ENCAPSULATION + layout.end + -layout.end % _WORD
 
 
 class _Layout:

@@ -24,6 +24,8 @@ __all__ = ["Channel", "Container", "StoredMessage", "read_container"]
 _RECORD = struct.Struct("<BQ")
 _MESSAGE = struct.Struct("<HIQQ")
 _CHUNK = struct.Struct("<QQQI")
+# Some middleware hands messages on with the bytes that fill them up, some without.
+_WORD = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +59,7 @@ class Container:
         channels: by number.
         messages: of the wanted topics, in the file's order.
         counts: messages per channel, unwanted ones included.
+        lengths: bytes of these messages' data per channel, each in whole words as DDS sends it.
         metadata: named maps of strings.
         end_ns: the greatest log time, or ``None`` without messages.
         damage: why reading ended before the end, or "".
@@ -65,6 +68,7 @@ class Container:
     channels: dict[int, Channel] = field(default_factory=dict)
     messages: list[StoredMessage] = field(default_factory=list)
     counts: dict[int, int] = field(default_factory=dict)
+    lengths: dict[int, int] = field(default_factory=dict)
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
     end_ns: int | None = None
     damage: str = ""
@@ -79,7 +83,7 @@ def read_container(path: Path, wanted: Callable[[Channel], bool]) -> Container:
 
     Args:
         path: the file.
-        wanted: which channels' messages to keep; the others are only counted.
+        wanted: which channels' messages to keep; the others are only counted and measured.
 
     Raises:
         InputError: it can't be read or is no MCAP file.
@@ -158,6 +162,8 @@ class _Parser:
         number, _, log_ns, _ = _MESSAGE.unpack_from(data, start)
         container = self.container
         container.counts[number] = container.counts.get(number, 0) + 1
+        length = end - start - _MESSAGE.size
+        container.lengths[number] = container.lengths.get(number, 0) + length + -length % _WORD
         if container.end_ns is None or log_ns > container.end_ns:
             container.end_ns = log_ns
         if number in self._kept:

@@ -165,7 +165,7 @@ class _Collected:
         self.agents: tuple[str, ...] = ()
 
     def take(self, container: Container) -> None:
-        """Decode a container's messages and count the others."""
+        """Decode a container's messages; count and measure what was said."""
         store = _make_typestore(container.channels.values())
         takers = {
             number: self._taker(channel)
@@ -177,13 +177,14 @@ class _Collected:
         for number, _, data in container.messages:
             takers[number](decode(data, types[number]))
         for number, channel in container.channels.items():
-            self._count(channel, container.counts.get(number, 0))
+            self._count(channel, self.records.messages_sent, container.counts.get(number, 0))
+            self._count(channel, self.records.bytes_sent, container.lengths.get(number, 0))
 
-    def _count(self, channel: Channel, count: int) -> None:
+    @staticmethod
+    def _count(channel: Channel, sent: dict[str, int], amount: int) -> None:
         agent, suffix = _split_topic(channel.topic)
-        sent = self.records.messages_sent
         if agent and suffix in TEAM_TOPICS:
-            sent[agent] = sent.get(agent, 0) + count
+            sent[agent] = sent.get(agent, 0) + amount
         elif agent and suffix == "odom":
             sent.setdefault(agent, 0)
 

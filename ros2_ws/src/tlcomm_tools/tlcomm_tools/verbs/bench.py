@@ -30,6 +30,7 @@ from tlcomm_tools.rounds import pose_round
 from tlcomm_tools.solver_bench import SolverRow, growth, measure_solvers
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_number, format_table
+from tlcomm_tools.traffic import SIZES, format_traffic, measure_traffic
 from tlcomm_tools.verbs.options import positive_int, print_json, team_size
 
 __all__ = ["EXAMPLE", "add_arguments", "run"]
@@ -49,12 +50,17 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="measure the solvers instead, on the first scenario's rounds and on random ones",
     )
     parser.add_argument(
+        "--traffic",
+        action="store_true",
+        help="measure what agents say instead, in random teams of growing size",
+    )
+    parser.add_argument(
         "--agents",
         type=team_size(MAX_AGENTS),
         nargs="+",
-        default=tuple(INSTANCES),
         metavar="N",
-        help=f"sizes of the random teams (default {' '.join(map(str, INSTANCES))}: half an hour)",
+        help=f"sizes of the random teams (default {' '.join(map(str, INSTANCES))} for solvers, "
+        f"half an hour; {' '.join(map(str, SIZES))} for traffic)",
     )
     parser.add_argument(
         "--instances",
@@ -76,6 +82,8 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(options: Namespace) -> Status:
     """Measure and show the table."""
     sites = [Site.from_scenario(load_scenario(path)) for path in options.scenarios]
+    if options.traffic:
+        return _run_traffic(options)
     if options.solvers:
         return _run_solvers(sites[0], options)
     measured = [_measure(site, options.repeats, options.rounds) for site in sites]
@@ -96,13 +104,23 @@ def run(options: Namespace) -> Status:
     return Status.FINE
 
 
+def _run_traffic(options: Namespace) -> Status:
+    """Measure what agents say."""
+    rows = measure_traffic(options.agents or SIZES, scenarios=options.instances or _FEWEST)
+    if options.json:
+        print_json({"format": "tlcomm-bench/1", "traffic": [asdict(row) for row in rows]})
+    else:
+        print(format_traffic(rows))
+    return Status.FINE
+
+
 def _run_solvers(site: Site, options: Namespace) -> Status:
     """Measure the solvers; rows are shown on standard error as they come."""
     measured = [
         plant_rounds(site, options.instances or _SCENARIO_ROUNDS),
         *(
             random_rounds(agents, options.instances or INSTANCES.get(agents, _FEWEST))
-            for agents in options.agents
+            for agents in options.agents or INSTANCES
         ),
     ]
     rows = []
