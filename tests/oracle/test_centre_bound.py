@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from tlcomm_core.game.centre_bound import centre_bounds, reach
 from tlcomm_core.game.links import Links
-from tlcomm_core.game.placement import cheapest_placement
+from tlcomm_core.game.search.centre_bound import centre_bounds, reach
+from tlcomm_core.game.search.placement import cheapest_placement
 
 
 @pytest.mark.parametrize("separation_m", [0.0, 0.5])

@@ -9,12 +9,12 @@ import pytest
 from tlcomm_core.errors import InfeasibleRoundError
 from tlcomm_core.game.algorithm import solve
 from tlcomm_core.game.best_response import Scope, best_response
-from tlcomm_core.game.exact import Share, solve_exactly
 from tlcomm_core.game.links import Links
-from tlcomm_core.game.placement import cheapest_placement
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Profile, RoundProblem
 from tlcomm_core.game.sample import sample_problem
+from tlcomm_core.game.search.exact import Share, solve_exactly
+from tlcomm_core.game.search.placement import cheapest_placement
 
 SIZES = [(1, 4, 3, 3), (2, 4, 3, 3), (3, 3, 3, 2), (4, 2, 3, 1), (4, 2, 2, 2)]
 

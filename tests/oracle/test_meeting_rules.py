@@ -9,11 +9,11 @@ import pytest
 from support.ruled_rounds import RULES, may_meet, ruled_problem
 from tlcomm_core.errors import InfeasibleRoundError
 from tlcomm_core.game.algorithm import Solution, solve
-from tlcomm_core.game.exact import solve_exactly
 from tlcomm_core.game.links import Links
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Profile, RoundProblem
 from tlcomm_core.game.resilience import cut_places
+from tlcomm_core.game.search.exact import solve_exactly
 
 Size = tuple[int, int, int, int]
 SIZES: list[Size] = [(1, 3, 3, 2), (2, 3, 3, 2), (3, 3, 3, 2), (4, 2, 3, 2)]

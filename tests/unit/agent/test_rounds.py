@@ -9,9 +9,9 @@ from support.hall import hall, make_member
 from tlcomm_core.agent.charts import Charts
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.game.algorithm import solve
-from tlcomm_core.game.exact import solve_exactly
 from tlcomm_core.game.offer import MemberOffer, PlannedStop, next_stops
 from tlcomm_core.game.rules import Rules
+from tlcomm_core.game.search.exact import solve_exactly
 from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.workspace.atlas import Atlas

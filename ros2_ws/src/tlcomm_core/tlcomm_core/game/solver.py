@@ -25,11 +25,11 @@ from typing import Final
 from tlcomm_core.errors import InputError
 from tlcomm_core.game.algorithm import Solution, improve
 from tlcomm_core.game.best_response import Scope
-from tlcomm_core.game.coalition import propose
-from tlcomm_core.game.exact import MOST_AGENTS, Share, solve_exactly
 from tlcomm_core.game.initial import initial_profile
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Profile, RoundProblem
+from tlcomm_core.game.search.coalition import propose
+from tlcomm_core.game.search.exact import MOST_AGENTS, Share, solve_exactly
 
 __all__ = [
     "BEST_RESPONSE",

@@ -7,12 +7,12 @@ from support.ruled_rounds import RULES, may_meet, ruled_problem
 from tlcomm_core.errors import InfeasibleRoundError
 from tlcomm_core.game.algorithm import solve
 from tlcomm_core.game.best_response import Scope, best_response
-from tlcomm_core.game.coalition import propose
-from tlcomm_core.game.exact import solve_exactly
 from tlcomm_core.game.initial import initial_profile
 from tlcomm_core.game.potential import potential
 from tlcomm_core.game.problem import Profile, RoundProblem
 from tlcomm_core.game.sample import sample_problem
+from tlcomm_core.game.search.coalition import propose
+from tlcomm_core.game.search.exact import solve_exactly
 
 
 def sample(seed: int, size: tuple[int, int, int, int]) -> tuple[RoundProblem, Profile]:

@@ -7,9 +7,9 @@ import numpy as np
 
 from tlcomm_core.game.best_response import CHANGE_TOLERANCE_S
 from tlcomm_core.game.links import Neighbourhood
-from tlcomm_core.game.placement import cheapest_placement
-from tlcomm_core.game.spanning_tree import spanning_tree
-from tlcomm_core.game.tree_programme import TreeProgramme
+from tlcomm_core.game.search.placement import cheapest_placement
+from tlcomm_core.game.search.spanning_tree import spanning_tree
+from tlcomm_core.game.search.tree_programme import TreeProgramme
 
 __all__ = ["regroup"]
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from tlcomm_core.game.links import Links
-from tlcomm_core.game.spanning_tree import grown_tree, spanning_tree
+from tlcomm_core.game.search.spanning_tree import grown_tree, spanning_tree
 
 LINE = Links(np.column_stack((np.arange(6.0), np.zeros(6))), 1.0).neighbourhood
 

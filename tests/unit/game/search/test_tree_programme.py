@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tlcomm_core.game.links import Links, Neighbourhood
-from tlcomm_core.game.tree_programme import TreeProgramme
+from tlcomm_core.game.search.tree_programme import TreeProgramme
 
 TREES = {
     "one": (),

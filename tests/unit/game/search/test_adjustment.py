@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from support.ruled_rounds import RULES, may_meet, ruled_problem
-from tlcomm_core.game.adjustment import adjusted_places
+from tlcomm_core.game.search.adjustment import adjusted_places
 
 
 @pytest.mark.parametrize("rule", RULES)

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from tlcomm_core.game.links import Links
-from tlcomm_core.game.reattachment import reattach
-from tlcomm_core.game.tree_programme import TreeProgramme
+from tlcomm_core.game.search.reattachment import reattach
+from tlcomm_core.game.search.tree_programme import TreeProgramme
 
 LATTICE = np.column_stack([axis.ravel() for axis in np.meshgrid(np.arange(8.0), np.arange(8.0))])
 LINKS = Links(LATTICE, 1.5)

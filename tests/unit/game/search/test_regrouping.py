@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 
 from tlcomm_core.game.links import Links
-from tlcomm_core.game.placement import cheapest_placement
-from tlcomm_core.game.regrouping import regroup
-from tlcomm_core.game.spanning_tree import grown_tree
-from tlcomm_core.game.tree_programme import TreeProgramme
+from tlcomm_core.game.search.placement import cheapest_placement
+from tlcomm_core.game.search.regrouping import regroup
+from tlcomm_core.game.search.spanning_tree import grown_tree
+from tlcomm_core.game.search.tree_programme import TreeProgramme
 
 
 def sample(seed: int, team: int) -> TreeProgramme:

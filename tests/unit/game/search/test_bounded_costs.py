@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from tlcomm_core.game.bounded_costs import BoundedCosts
 from tlcomm_core.game.problem import RoundProblem
+from tlcomm_core.game.search.bounded_costs import BoundedCosts
 
 MakeProblem = Callable[..., RoundProblem]
 

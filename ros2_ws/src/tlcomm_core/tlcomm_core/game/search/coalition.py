@@ -20,15 +20,15 @@ from typing import Final
 
 import numpy as np
 
-from tlcomm_core.game.adjustment import adjusted_places
 from tlcomm_core.game.best_response import Scope, best_response
-from tlcomm_core.game.bounded_costs import BoundedCosts
 from tlcomm_core.game.links import Neighbourhood
 from tlcomm_core.game.problem import Profile, RoundProblem
-from tlcomm_core.game.reattachment import reattach
-from tlcomm_core.game.regrouping import regroup
-from tlcomm_core.game.spanning_tree import Edge, grown_tree
-from tlcomm_core.game.tree_programme import TreeProgramme
+from tlcomm_core.game.search.adjustment import adjusted_places
+from tlcomm_core.game.search.bounded_costs import BoundedCosts
+from tlcomm_core.game.search.reattachment import reattach
+from tlcomm_core.game.search.regrouping import regroup
+from tlcomm_core.game.search.spanning_tree import Edge, grown_tree
+from tlcomm_core.game.search.tree_programme import TreeProgramme
 
 __all__ = ["propose"]
 

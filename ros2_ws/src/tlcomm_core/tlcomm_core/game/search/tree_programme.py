@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tlcomm_core.game.links import Neighbourhood
-from tlcomm_core.game.spanning_tree import Edge
+from tlcomm_core.game.search.spanning_tree import Edge
 
 __all__ = ["TreeProgramme"]
 

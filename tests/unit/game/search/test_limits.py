@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from tlcomm_core.game.limits import Limits, contested
 from tlcomm_core.game.links import Links
 from tlcomm_core.game.rules import Rules
+from tlcomm_core.game.search.limits import Limits, contested
 
 LINE = Links(np.column_stack((0.5 * np.arange(5), np.zeros(5))), 1.0)
 COSTS = np.arange(15.0).reshape(3, 5)

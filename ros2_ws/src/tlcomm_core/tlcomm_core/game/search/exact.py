@@ -16,12 +16,12 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from tlcomm_core.game.adjustment import adjusted_places
-from tlcomm_core.game.bounded_costs import BoundedCosts
-from tlcomm_core.game.centre_bound import centre_bounds, reach
-from tlcomm_core.game.limits import Limits, contested
-from tlcomm_core.game.placement import cheapest_placement
 from tlcomm_core.game.problem import Profile, RoundProblem
+from tlcomm_core.game.search.adjustment import adjusted_places
+from tlcomm_core.game.search.bounded_costs import BoundedCosts
+from tlcomm_core.game.search.centre_bound import centre_bounds, reach
+from tlcomm_core.game.search.limits import Limits, contested
+from tlcomm_core.game.search.placement import cheapest_placement
 
 __all__ = ["MOST_AGENTS", "MOST_DECISIONS", "WHOLE", "Optimum", "Share", "solve_exactly"]
 

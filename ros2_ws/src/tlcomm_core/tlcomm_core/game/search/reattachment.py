@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from tlcomm_core.game.best_response import CHANGE_TOLERANCE_S
 from tlcomm_core.game.links import Neighbourhood
-from tlcomm_core.game.spanning_tree import Edge
-from tlcomm_core.game.tree_programme import TreeProgramme
+from tlcomm_core.game.search.spanning_tree import Edge
+from tlcomm_core.game.search.tree_programme import TreeProgramme
 
 __all__ = ["reattach"]
 
