@@ -80,21 +80,12 @@ class _Programme:
         self.hanging = np.zeros((1 << count, costs.shape[1]))
         self.topped = np.empty_like(self.hanging)
         self.reached = np.empty_like(self.hanging)
-        lattice = (2,) * count + costs.shape[1:]
-        reached, hanging = self.reached.reshape(lattice), self.hanging.reshape(lattice)
-        for subsets in _layers(count):
-            for subset in subsets:
-                members = _members(subset)
-                rests = [subset ^ (1 << agent) for agent in members]
-                self.topped[subset] = (costs[members] + self.hanging[rests]).min(axis=0)
-            layer = list(subsets)
-            self.reached[layer] = neighbourhood.least(self.topped[layer])
-            for subset in subsets:
-                # All splits at once: the subtrees A are a view, and what they leave is the same
-                # view backwards.
-                parts, rests_of_parts = _splits(count, subset)
-                splits = reached[parts] + hanging[rests_of_parts]
-                self.hanging[subset] = splits.reshape(-1, costs.shape[1]).min(axis=0)
+        for layer in _layers(count):
+            tops = costs[layer.members] + self.hanging[layer.below]
+            self.topped[layer.subsets] = tops.min(axis=1)
+            self.reached[layer.subsets] = neighbourhood.least(self.topped[layer.subsets])
+            splits = self.reached[layer.parts] + self.hanging[layer.rests]
+            self.hanging[layer.subsets] = splits.min(axis=1)
 
     def write_hanging(self, subset: int, place: int, locations: list[int]) -> None:
         """Write the places of the subtrees of ``subset`` that hang from a place."""
@@ -117,34 +108,42 @@ class _Programme:
         self.write_hanging(rests[best], place, locations)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Layer:
+    """The subsets of one size k, as bit masks, with what the recursion needs of each.
+
+    Attributes:
+        subsets: int[n].
+        members: int[n, k], agents.
+        below: int[n, k], the subset without each member.
+        parts: int[n, 2^(k−1)], its subsets with its first member.
+        rests: int[n, 2^(k−1)], what each of these leaves.
+    """
+
+    subsets: NDArray[np.intp]
+    members: NDArray[np.intp]
+    below: NDArray[np.intp]
+    parts: NDArray[np.intp]
+    rests: NDArray[np.intp]
+
+
+@cache
+def _layers(count: int) -> tuple[_Layer, ...]:
+    """Return the non-empty subsets of ``count`` agents by size, ascending."""
+    layers = []
+    for size in range(1, count + 1):
+        chosen = [subset for subset in range(1 << count) if subset.bit_count() == size]
+        subsets = np.array(chosen, dtype=np.intp)
+        members = np.array([_members(subset) for subset in chosen], dtype=np.intp)
+        parts = np.array([_parts_with_first(subset) for subset in chosen], dtype=np.intp)
+        below = subsets[:, None] ^ (1 << members)
+        layers.append(_Layer(subsets, members, below, parts, subsets[:, None] ^ parts))
+    return tuple(layers)
+
+
 @cache
 def _members(subset: int) -> list[int]:
     return [agent for agent in range(subset.bit_length()) if subset >> agent & 1]
-
-
-@cache
-def _layers(count: int) -> tuple[tuple[int, ...], ...]:
-    """Return the subsets of each size from 1 on."""
-    return tuple(
-        tuple(subset for subset in range(1 << count) if subset.bit_count() == size)
-        for size in range(1, count + 1)
-    )
-
-
-@cache
-def _splits(count: int, subset: int) -> tuple[tuple[slice | int, ...], tuple[slice | int, ...]]:
-    """Return the indices of all parts of a set with its first member, and of what each leaves.
-
-    They are for tables with an axis for each of ``count`` agents, the last agent's first.
-    """
-    first = (subset & -subset).bit_length() - 1
-    parts: list[slice | int] = []
-    rests: list[slice | int] = []
-    for agent in reversed(range(count)):
-        is_free = bool(subset >> agent & 1) and agent != first
-        parts.append(slice(None) if is_free else int(agent == first))
-        rests.append(slice(None, None, -1) if is_free else 0)
-    return tuple(parts), tuple(rests)
 
 
 @cache
