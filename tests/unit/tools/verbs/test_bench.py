@@ -1,10 +1,13 @@
 """The verb ``bench``."""
 
 import json
+from typing import Any
 
 import pytest
 
 from support.command import CORRIDOR, run
+
+Rows = list[dict[str, Any]]
 
 
 def test_bench(capsys: pytest.CaptureFixture[str]) -> None:
@@ -18,15 +21,21 @@ def test_bench(capsys: pytest.CaptureFixture[str]) -> None:
     assert all(measured[key] > 0.0 for key in ("plan_s", "solve_s", "own_solve_s", "simulate_s"))
 
 
+def measured(capsys: pytest.CaptureFixture[str], what: str, agents: int) -> tuple[Rows, str]:
+    """Return the rows of a kind of bench on one random team, and what a person reads."""
+    asked = ("bench", CORRIDOR, f"--{what}", "--agents", str(agents), "--instances", "1")
+    status, text, progress = run(capsys, *asked)
+    assert status == 0
+    assert max(map(len, text.splitlines())) <= 80
+    _, out, _ = run(capsys, *asked, "--json")
+    rows: Rows = json.loads(out)[what]
+    return rows, f"{text}{progress}"
+
+
 def test_bench_of_solvers(capsys: pytest.CaptureFixture[str]) -> None:
     """Each solver has a row for the scenario's rounds and for random ones, next to the optimum."""
-    asked = ("bench", CORRIDOR, "--solvers", "--agents", "4", "--instances", "1")
-    status, out, err = run(capsys, *asked)
-    assert status == 0
-    assert "random 4 coalition" in err
-    assert max(map(len, out.splitlines())) <= 80
-    _, out, _ = run(capsys, *asked, "--json")
-    rows = json.loads(out)["solvers"]
+    rows, text = measured(capsys, "solvers", 4)
+    assert "random 4 coalition" in text
     assert {(row["instances"], row["solver"]) for row in rows} == {
         (instances, solver)
         for instances in ("corridor", "random")
@@ -36,13 +45,8 @@ def test_bench_of_solvers(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_bench_of_traffic(capsys: pytest.CaptureFixture[str]) -> None:
-    """Each solver has a row for each size; JSON has the same figures."""
-    asked = ("bench", CORRIDOR, "--traffic", "--agents", "3", "--instances", "1")
-    status, out, _ = run(capsys, *asked)
-    assert status == 0
-    assert "coalition" in out
-    assert max(map(len, out.splitlines())) <= 80
-    _, out, _ = run(capsys, *asked, "--json")
-    rows = json.loads(out)["traffic"]
+    """Each solver has a row for each size."""
+    rows, text = measured(capsys, "traffic", 3)
+    assert "coalition" in text
     assert {row["solver"] for row in rows} >= {"best-response", "coalition"}
     assert all(row["agents"] == 3 for row in rows)

@@ -67,7 +67,7 @@ class _Plan:
 
 
 # A coalition of everybody, which is the best for its bound, is what few enough agents can afford.
-_SMALL_TEAM: Final = _Plan(parts=8, glance=_Effort(6, 1), finalists=3, close_look=_Effort(2, 8))
+_WHOLE_TEAM: Final = _Plan(parts=8, glance=_Effort(6, 1), finalists=3, close_look=_Effort(2, 8))
 # A large team tries many bounds, however few each of its agents does.
 _TEAM_PARTS: Final = 300
 _LEAST_PARTS: Final = 2
@@ -99,9 +99,9 @@ def propose(problem: RoundProblem, start: Profile, searcher: int) -> Profile:
 
 def _plan(team: int) -> _Plan:
     """Return how an agent of a team of this size searches."""
-    if team <= _SMALL_TEAM.close_look.size:
-        return _SMALL_TEAM
-    parts = max(_LEAST_PARTS, min(_SMALL_TEAM.parts, _TEAM_PARTS // team))
+    if team <= _WHOLE_TEAM.close_look.size:
+        return _WHOLE_TEAM
+    parts = max(_LEAST_PARTS, min(_WHOLE_TEAM.parts, _TEAM_PARTS // team))
     return _Plan(
         parts=parts,
         glance=_Effort(parts // 2, 1),
