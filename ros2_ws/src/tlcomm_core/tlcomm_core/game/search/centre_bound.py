@@ -36,6 +36,8 @@ def centre_bounds(costs: NDArray[np.float64], neighbourhood: Neighbourhood) -> N
     Returns:
         float[Z], fresh; a million and more where there is no such placement.
 
+    Source: that every tree has one or two centres, C. Jordan, "Sur les assemblages de lignes"
+        (1869); the count of far nodes is argued above.
     Cost: O(N²·Z + N·Z·D).
     """
     team = len(costs)
