@@ -103,6 +103,21 @@ def test_a_tick_waits_for_all_that_it_counts(recording: Recording) -> None:
     recording.until(world.answered)
 
 
+def test_in_lock_step_the_bag_grows_at_answers_only(recording: Recording) -> None:
+    """However much time goes by, the file never holds part of what one tick counts."""
+    world, size = recording.world, recording.writer.path.stat().st_size
+    recording.writer._period_s = 0.0
+    world.tick()
+    recording.until(lambda: recording.recorder._tick is not None)
+    world.clock_pub.publish(Clock())
+    recording.until(lambda: recording.recorder._ledger.total == 1)
+    recording.recorder._on_timer()
+    assert recording.writer.path.stat().st_size == size
+    world.clock_pub.publish(Clock())
+    recording.until(world.answered)
+    assert recording.writer.path.stat().st_size > size
+
+
 def test_it_names_what_a_tick_waits_for(
     recording: Recording, monkeypatch: pytest.MonkeyPatch
 ) -> None:

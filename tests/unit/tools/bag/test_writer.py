@@ -166,26 +166,30 @@ def test_the_bag_is_whole_after_each_flush(tmp_path: Path) -> None:
     writer.close()
 
 
-def test_messages_cause_the_flush_that_is_due(tmp_path: Path) -> None:
-    """Nothing is written before its period is over, and the first message after it writes all."""
+def test_a_flush_is_due_when_its_period_is_over(tmp_path: Path) -> None:
+    """Nothing gets into the file before its period is over, and all does after it."""
     clock = FakeClock()
     writer = open_bag(tmp_path / "bag", clock)
     writer.write(CLOCK, 0, DATA)
     clock.now_s = 0.4
     writer.write(CLOCK, 1, DATA)
+    writer.flush_if_due()
     assert count_messages(writer.path) == 0
     clock.now_s = 0.5
     writer.write(CLOCK, 2, DATA)
+    assert count_messages(writer.path) == 0
+    writer.flush_if_due()
     assert count_messages(writer.path) == 3
     writer.close()
 
 
-def test_a_full_chunk_is_written_at_once(tmp_path: Path) -> None:
+def test_a_flush_is_due_when_a_chunk_is_full(tmp_path: Path) -> None:
     """However short the time, no more than a chunk is held back."""
     writer = open_bag(tmp_path / "bag", FakeClock())
     count = CHUNK_SIZE // len(DATA)
     for number in range(count):
         writer.write(CLOCK, number, DATA)
+        writer.flush_if_due()
     assert 0 < count_messages(writer.path) < count
     writer.close()
     assert count_messages(writer.path) == count
@@ -202,10 +206,12 @@ clock = FakeClock()
 writer = open_bag(Path({str(tmp_path / "bag")!r}), clock)
 for number in range(1000):
     writer.write(CLOCK, number, DATA)
+    writer.flush_if_due()
     clock.now_s += 0.1
 print("written", flush=True)
 while True:
     writer.write(CLOCK, 1000, DATA)
+    writer.flush_if_due()
 """
     environment = {"PYTHONPATH": str(Path(__file__).parent)}
     with subprocess.Popen(

@@ -1,7 +1,7 @@
 """Crash-safe writing of a bag.
 
 ``BagWriter``  appends messages; the bag is whole after every flush
-``CHUNK_SIZE``  size at which a chunk is flushed by itself
+``CHUNK_SIZE``  size from which on a flush is due
 """
 
 import os
@@ -64,7 +64,7 @@ class BagWriter:
             topics: every topic; its place in this sequence is its number in ``write``.
             definitions: by type, one for each topic's.
             notes: what else a reader should know, kept inside the file.
-            period_s: wall time after which a message causes a flush.
+            period_s: wall time after which a flush is due.
             clock: wall time in seconds.
 
         Raises:
@@ -121,11 +121,7 @@ class BagWriter:
         return schemas, channels
 
     def write(self, topic: int, log_ns: int, data: bytes) -> None:
-        """Append one serialized message of the topic with this number.
-
-        Raises:
-            OSError: a flush was due and failed; what was flushed before stays readable.
-        """
+        """Append one serialized message of the topic with this number, in memory until a flush."""
         number = topic + 1
         chunk = self._chunk
         chunk.places.setdefault(number, []).extend((log_ns, len(chunk.contents)))
@@ -134,15 +130,18 @@ class BagWriter:
         self._counts[number] = sequence
         first_ns, last_ns = chunk.span_ns
         chunk.span_ns = (min(first_ns, log_ns), max(last_ns, log_ns))
-        if len(chunk.contents) >= CHUNK_SIZE:
-            self.flush()
-        else:
-            self.flush_if_due()
 
     def flush_if_due(self) -> None:
-        """Flush when the last time is long enough ago."""
+        """Flush when a chunk is full, or the last time is long enough ago.
+
+        What is written between two of these calls gets into the file together or not at all.
+
+        Raises:
+            OSError: it was due and failed; what was flushed before stays readable.
+        """
         wait_s = max(self._period_s, self._flush_cost_s / _FLUSH_SHARE)
-        if self._clock() - self._flushed_s >= wait_s:
+        is_full = len(self._chunk.contents) >= CHUNK_SIZE
+        if is_full or self._clock() - self._flushed_s >= wait_s:
             self.flush()
 
     def flush(self) -> None:

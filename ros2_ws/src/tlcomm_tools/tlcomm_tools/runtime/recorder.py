@@ -6,6 +6,8 @@
 
 In lock step it takes part like an agent: a tick says how many messages have been published, and is
 answered only when all of them have arrived. So nothing can be missing without being noticed.
+Topics overtake each other; only at an answer does the bag hold all of them up to one time. So that
+is when it is brought into the file: a recording that breaks off ends at one time on all topics.
 """
 
 import signal
@@ -154,6 +156,7 @@ class Recorder(Node):
         self._is_ready = False
         self._is_running = False
         self._tick: Tick | None = None
+        self._is_ticked = False
         topics = recorded_topics(settings.agents)
         self._ledger = Ledger(topics, settings.agents)
         self._recorded = [self._subscribe(number, topic) for number, topic in enumerate(topics)]
@@ -196,6 +199,8 @@ class Recorder(Node):
             return
         seconds, nanoseconds = _STAMP.unpack_from(data, _STAMP_OFFSET)
         self._writer.write(number, seconds * NANOSECONDS_PER_SECOND + nanoseconds, data)
+        if not self._is_ticked:
+            self._writer.flush_if_due()
         self._ledger.count(number)
         self._silent_periods = 0
         self._is_running = True
@@ -204,6 +209,7 @@ class Recorder(Node):
 
     def _on_tick(self, tick: Tick) -> None:
         self._is_running = True
+        self._is_ticked = True
         self._tick = tick
         self._tick_since_s = time.monotonic()
         self._answer_when_complete(tick)
@@ -214,13 +220,16 @@ class Recorder(Node):
         self._tick = None
         if tick.stop:
             self._writer.flush()
+        else:
+            self._writer.flush_if_due()
         self._reply(tick.sequence)
         if tick.stop:
             self._replies.wait_for_all_acked(Duration(seconds=_ACKNOWLEDGED_S))
             self.is_done = True
 
     def _on_timer(self) -> None:
-        self._writer.flush_if_due()
+        if not self._is_ticked:
+            self._writer.flush_if_due()
         self._silent_periods += 1
         if self._tick is not None and time.monotonic() > self._tick_since_s + _PATIENCE_S:
             # The sim could only say that the recorder doesn't answer; this names whose fault it is.
