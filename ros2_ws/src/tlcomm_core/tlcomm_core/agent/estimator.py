@@ -55,7 +55,7 @@ class Estimator:
         """
         self._own: Final = own
         self._action: Final = action
-        self._others: Final = frozenset(members) - {own}
+        self._members: Final = frozenset(members)
         self._averaging: Final = averaging
         self._period_ns: Final = period_ns
         self._since_ns: dict[str, int] = {}
@@ -65,6 +65,7 @@ class Estimator:
         self._reported: ReportEstimate | None = None
         self._step = -1
         self._due_ns: int | None = None
+        self._has_news = False
 
     @property
     def next_need_ns(self) -> int | None:
@@ -84,13 +85,17 @@ class Estimator:
         """Take a reading: what the agent measured, and when."""
         self._measured = value
         self._averaging.measure(value, time_ns)
+        self._has_news = True
 
     def see_neighbours(self, stamp_ns: int, neighbours: Iterable[str]) -> None:
         """Note who is in range from ``stamp_ns`` on."""
-        before = self._since_ns
-        self._since_ns = {name: before.get(name, stamp_ns) for name in sorted(neighbours)}
-        for name in before.keys() - self._since_ns.keys():
+        before, now = self._since_ns, frozenset(neighbours)
+        if before.keys() == now:
+            return
+        self._since_ns = {name: before.get(name, stamp_ns) for name in sorted(now)}
+        for name in before.keys() - now:
             self._heard.pop(name, None)
+        self._has_news = True
 
     def hear(self, word: EstimateExchange, now_ns: int) -> tuple[Action, ...]:
         """Take in what a neighbour says; what follows from it is done by ``proceed``."""
@@ -99,6 +104,9 @@ class Estimator:
 
     def proceed(self, now_ns: int) -> tuple[Action, ...]:
         """Exchange, if it is time to and there is anything to; report a changed estimate."""
+        if not self._has_news and (self._due_ns is None or now_ns < self._due_ns):
+            return ()
+        self._has_news = False
         said: tuple[Action, ...] = ()
         due_ns = self._next_exchange_ns(now_ns)
         if due_ns is not None and due_ns <= now_ns:
@@ -109,18 +117,18 @@ class Estimator:
         return (*said, *self._report())
 
     def _receive(self, word: EstimateExchange, now_ns: int) -> Reception:
-        members = self._others | {self._own}
-        if word.sender not in self._others or any(each.agent not in members for each in word.known):
+        if word.sender not in self._members or word.sender == self._own:
             return Reception.FOREIGN
-        if word.sender not in self._since_ns:
-            return Reception.LATE
+        if any(each.agent not in self._members for each in word.known):
+            return Reception.MALFORMED
         # A clock may be a little ahead of this agent's; what is far ahead is nobody's time.
         if word.step > now_ns // self._period_ns + 1:
             return Reception.EARLY
         before = self._heard.get(word.sender, ())
-        if any(word.step <= each.step for each in before):
+        if word.sender not in self._since_ns or (before and word.step <= before[-1].step):
             return Reception.LATE
         self._heard[word.sender] = (*before[-1:], word)
+        self._has_news = True
         return Reception.ACCEPTED
 
     def _next_exchange_ns(self, now_ns: int) -> int | None:

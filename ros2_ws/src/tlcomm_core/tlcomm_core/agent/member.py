@@ -83,6 +83,7 @@ class Member:
         self._charts = charts
         self._estimator = estimator
         self._measured_at = ""
+        self._brain_need_ns: int | None = 0
         self._odometry: list[OdometryReceived] = []
         self._maps: list[MapChanged] = []
         self._next_need_ns: int | None = None
@@ -189,15 +190,12 @@ class Member:
             else:
                 is_told = True
                 actions += self._brain.handle(MessageHeard(message), now_s)
-        if is_told or now_ns >= self._brain_need_ns:
-            meetings = self._brain.meetings_ended
-            actions += self._brain.handle(TimePassed(), now_s)
-            if self._brain.meetings_ended != meetings:
-                self._charts.forget()
+        if is_told or (self._brain_need_ns is not None and now_ns >= self._brain_need_ns):
+            actions += self._proceed(now_ns, now_s)
         if self._estimator is not None:
             self._measured_at = self._estimator.measured_at(actions)
             actions += self._estimator.proceed(now_ns)
-        self._next_need_ns = self._needed_ns(now_ns)
+        self._next_need_ns = self._needed_ns()
         return tuple(actions)
 
     def _hear_estimate(self, word: EstimateExchange, now_ns: int) -> tuple[Action, ...]:
@@ -205,19 +203,21 @@ class Member:
             return (CountIgnored(Reception.UNNEEDED.value),)
         return self._estimator.hear(word, now_ns)
 
-    @property
-    def _brain_need_ns(self) -> float:
-        """When the brain wants to be called again; inf if it doesn't."""
+    def _proceed(self, now_ns: int, now_s: float) -> tuple[Action, ...]:
+        """Let the brain do what is due."""
+        meetings = self._brain.meetings_ended
+        actions = self._brain.handle(TimePassed(), now_s)
+        if self._brain.meetings_ended != meetings:
+            self._charts.forget()
         need_s = self._brain.next_need_s
-        return math.inf if need_s == math.inf else nanoseconds(need_s)
+        # Rounding must not ask for the instant that just was.
+        self._brain_need_ns = None if need_s == math.inf else max(nanoseconds(need_s), now_ns + 1)
+        return actions
 
-    def _needed_ns(self, now_ns: int) -> int | None:
+    def _needed_ns(self) -> int | None:
         """Return when brain or estimator want to be called again, or a message is heard."""
         estimate_ns = None if self._estimator is None else self._estimator.next_need_ns
-        needs_ns = [self._radio.next_due_ns, estimate_ns]
-        if self._brain_need_ns < math.inf:
-            # Rounding must not ask for the instant that just was.
-            needs_ns.append(max(int(self._brain_need_ns), now_ns + 1))
+        needs_ns = (self._brain_need_ns, self._radio.next_due_ns, estimate_ns)
         return min((time_ns for time_ns in needs_ns if time_ns is not None), default=None)
 
 
