@@ -10,6 +10,7 @@ import numpy as np
 
 from tlcomm_core.field.sensors import Sensors
 from tlcomm_core.game.solver import DEFAULT, Solver
+from tlcomm_core.method import Method
 from tlcomm_core.scenario.site import Site, later_grids
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.world.lockstep import StopRule
@@ -27,7 +28,8 @@ class Mission:
         seed: of all that is random.
         rounds: the run ends D_c after the meeting of this round; or ``None``.
         until_s: the run ends at this simulated time; or ``None``.
-        solver: of the rounds.
+        solver: of the rounds, as far as the method leaves the choice.
+        method: of coordination.
     """
 
     site: Site
@@ -35,6 +37,7 @@ class Mission:
     rounds: int | None
     until_s: float | None
     solver: Solver = DEFAULT
+    method: Method = Method.TEAM
 
     @property
     def stop(self) -> StopRule:

@@ -48,7 +48,7 @@ class Estimator:
 
         Args:
             own: the agent's name.
-            members: the team's names.
+            members: names of those whom it exchanges estimates with; its own may be among them.
             averaging: what to do with what is heard.
             period_ns: from one exchange to the next.
             action: that reads the field.
@@ -89,7 +89,7 @@ class Estimator:
 
     def see_neighbours(self, stamp_ns: int, neighbours: Iterable[str]) -> None:
         """Note who is in range from ``stamp_ns`` on."""
-        before, now = self._since_ns, frozenset(neighbours)
+        before, now = self._since_ns, self._members.intersection(neighbours)
         if before.keys() == now:
             return
         self._since_ns = {name: before.get(name, stamp_ns) for name in sorted(now)}
@@ -186,8 +186,14 @@ class Estimator:
         return (report,)
 
 
-def create_estimator(name: str, scenario: Scenario) -> Estimator | None:
-    """Return the estimator of a member of the scenario's team; ``None`` if there is no field."""
+def create_estimator(name: str, scenario: Scenario, members: Iterable[str]) -> Estimator | None:
+    """Return the estimator of a member of the scenario's team; ``None`` if there is no field.
+
+    Args:
+        name: the agent's name.
+        scenario: with the field.
+        members: names of those whom it exchanges estimates with.
+    """
     if scenario.field is None:
         return None
     exchange = scenario.field.exchange
@@ -195,4 +201,4 @@ def create_estimator(name: str, scenario: Scenario) -> Estimator | None:
     if exchange.mode == "consensus":
         averaging = Consensus(name, exchange.step, exchange.tolerance)
     period_ns = nanoseconds(exchange.period_s)
-    return Estimator(name, scenario.agents, averaging, period_ns, scenario.field.action)
+    return Estimator(name, members, averaging, period_ns, scenario.field.action)

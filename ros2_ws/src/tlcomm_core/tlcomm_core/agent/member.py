@@ -27,14 +27,15 @@ from tlcomm_core.agent.events import (
     TimePassed,
 )
 from tlcomm_core.agent.faults import ActionFaults, fault_rng
+from tlcomm_core.agent.methods import brain_for, rules_for
 from tlcomm_core.agent.planner import Planner, local_plan, plan_for
 from tlcomm_core.agent.radio import OUT_OF_RANGE, UNSEEN, Radio
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.agent.settings import Settings
 from tlcomm_core.errors import PlanningError
-from tlcomm_core.game.rules import Rules
 from tlcomm_core.game.solver import DEFAULT, Solver
 from tlcomm_core.geometry import Pose
+from tlcomm_core.method import Method
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.protocol.messages import EstimateExchange, TeamMessage
 from tlcomm_core.protocol.negotiation import Phase
@@ -221,7 +222,7 @@ class Member:
         return min((time_ns for time_ns in needs_ns if time_ns is not None), default=None)
 
 
-def team_of(site: Site, solver: Solver = DEFAULT) -> Team:
+def team_of(site: Site, solver: Solver = DEFAULT, method: Method = Method.TEAM) -> Team:
     """Return what every member of the scenario's team knows of it."""
     communication = site.scenario.communication
     return Team(
@@ -229,11 +230,11 @@ def team_of(site: Site, solver: Solver = DEFAULT) -> Team:
         planned_range_m=site.planned_range_m,
         period_s=communication.period_s,
         duration_s=communication.duration_s,
-        rules=Rules(communication.separation_m, communication.resilience),
+        rules=rules_for(method, communication),
         margin_s=communication.margin_s,
         on_infeasible=OnInfeasible(communication.on_infeasible),
         clearance_m=site.planned_clearance_m,
-        solver=solver,
+        solver=method.solver(solver),
     )
 
 
@@ -244,6 +245,7 @@ def create(
     atlas: Atlas,
     seed: int = 0,
     solver: Solver = DEFAULT,
+    method: Method = Method.TEAM,
 ) -> Member:
     """Return a member of the scenario's team, with its local plan made.
 
@@ -254,7 +256,8 @@ def create(
         atlas: travel times on the scenario's grid and round its regions; members in one
             process may share it.
         seed: of what befalls it, the run's.
-        solver: how its team finds the next meetings.
+        solver: how its team finds the next meetings, where the method leaves the choice.
+        method: of coordination.
 
     Raises:
         PlanningError: the agent's task has no plan.
@@ -263,7 +266,7 @@ def create(
     allowance_s = _ALLOWANCE_S[pacing]
     tolerance_m = scenario.drive_of(name).position_tolerance_m
     travel = travel_of(name, site, atlas, allowance_s)
-    team = team_of(site, solver)
+    team = team_of(site, solver, method)
     # Members' plans lead through regions: with this done, the first round takes no longer than
     # later ones.
     travel.prepare(site.region_location.values())
@@ -272,7 +275,8 @@ def create(
     def planner(task: str | None, start: Pose, now: TravelTimes) -> LocalPlan:
         return plan_for(task, start, name, site, now)
 
-    brain = Brain(
+    brain = brain_for(
+        method,
         Settings(
             name=name,
             plan=local_plan(name, site, travel),
@@ -285,11 +289,14 @@ def create(
             pacing=pacing,
             faults=ActionFaults(scenario.faults.action_failure, fault_rng(seed, name)),
             retries=scenario.faults.retries,
-        )
+        ),
     )
     # Free running, a message is heard when it comes; in lock step, one hop's latency after.
     latency_s = scenario.communication.hop_latency_s if pacing is Pacing.EVENT else 0.0
     channel = Channel(scenario.radio, scenario.communication.range_m, seed, name)
     unlinked = UNSEEN if scenario.radio.line_of_sight else OUT_OF_RANGE
     radio = Radio(nanoseconds(latency_s), channel, unlinked)
-    return Member(name, brain, radio, planner, charts, create_estimator(name, scenario))
+    # Whose method is not to meet doesn't talk by chance either.
+    partners = () if method is Method.NONE else scenario.agents
+    estimator = create_estimator(name, scenario, partners)
+    return Member(name, brain, radio, planner, charts, estimator)
