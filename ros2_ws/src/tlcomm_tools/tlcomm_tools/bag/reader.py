@@ -27,6 +27,7 @@ _DECODED = {
     "task_event": "tlcomm_msgs/msg/TaskEvent",
     "team_strategy": "tlcomm_msgs/msg/TeamStrategy",
     "round_timing": "tlcomm_msgs/msg/RoundTiming",
+    "estimate": "tlcomm_msgs/msg/Estimate",
     "undelivered": "tlcomm_msgs/msg/Undelivered",
 }
 _CONNECTIVITY = "tlcomm_msgs/msg/Connectivity"
@@ -148,6 +149,7 @@ def _gather(path: Path, containers: list[Container]) -> RecordedRun:
     records = collected.records
     for entries in (records.odometry, records.connectivity, records.tasks, records.strategies):
         entries.sort(key=attrgetter("stamp_ns"))
+    records.estimates.sort(key=attrgetter("stamp_ns"))
     return RecordedRun(
         records=records,
         agents=collected.agents or tuple(sorted(records.messages_sent)),
@@ -191,23 +193,19 @@ class _Collected:
     def _taker(self, channel: Channel) -> Callable[[wire.DecodedMessage], None]:
         agent, suffix = _split_topic(channel.topic)
         records = self.records
-        match suffix:
-            case "odom":
-                return lambda message: records.odometry.append(wire.read_odometry(message, agent))
-            case "task_event":
-                return lambda message: records.tasks.append(wire.read_task_event(message))
-            case "team_strategy":
-                return lambda message: records.strategies.append(
-                    wire.read_team_strategy(message, agent)
-                )
-            case "round_timing":
-                return lambda message: records.timings.append(wire.read_round_timing(message))
-            case "undelivered":
-                return lambda message: records.messages_undelivered.update(
-                    {agent: wire.read_undelivered(message)}
-                )
-            case _:
-                return self._take_connectivity
+        takers: dict[str, Callable[[wire.DecodedMessage], None]] = {
+            "odom": lambda message: records.odometry.append(wire.read_odometry(message, agent)),
+            "task_event": lambda message: records.tasks.append(wire.read_task_event(message)),
+            "team_strategy": lambda message: records.strategies.append(
+                wire.read_team_strategy(message, agent)
+            ),
+            "round_timing": lambda message: records.timings.append(wire.read_round_timing(message)),
+            "estimate": lambda message: records.estimates.append(wire.read_estimate(message)),
+            "undelivered": lambda message: records.messages_undelivered.update(
+                {agent: wire.read_undelivered(message)}
+            ),
+        }
+        return takers.get(suffix, self._take_connectivity)
 
     def _take_connectivity(self, message: wire.DecodedMessage) -> None:
         self.agents = self.agents or tuple(message.agents)

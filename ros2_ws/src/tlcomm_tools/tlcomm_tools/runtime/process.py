@@ -126,7 +126,8 @@ def _be_recorder(arguments: argparse.Namespace, notifier: Notifier) -> int:
 
     scenario = load_scenario(arguments.scenario)
     notes = {"scenario": dumps(scenario)}
-    settings = recorder.RecorderSettings(arguments.bag, tuple(scenario.agents), notes)
+    measures = scenario.field is not None
+    settings = recorder.RecorderSettings(arguments.bag, tuple(scenario.agents), measures, notes)
     return recorder.run(settings, spin, notifier)
 
 
