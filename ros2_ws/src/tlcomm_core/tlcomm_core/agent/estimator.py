@@ -28,9 +28,9 @@ class Estimator:
     """Readings taken in, and exchanged with whoever is in range, for as long as that changes them.
 
     Exchanges are at the multiples of a period of simulated time, the same for all: at each, an
-    agent steps by what was said before it, and says its estimate if it has been moved to another, or
-    if a neighbour has come into range since it said it. So whatever the team is doing meanwhile,
-    neighbours exchange; and once they agree, they are silent.
+    agent steps by what was said before it, and says its estimate if that is new, or if a neighbour
+    has come into range since it said it. So whatever the team is doing meanwhile, neighbours
+    exchange; and once they agree, they are silent.
 
     Two agents reckon with each other once both have said something since they came into range:
     the same exchange at both ends, if nothing is lost. If something is, one of them waits in vain
