@@ -50,7 +50,9 @@ ARROWS: dict[str, set[str]] = {
     "world": {"errors", "geometry", "units", "workspace", "world.radio", "world.unicycle"},
     "records": {"agent", "game", "world"},
     "mission": {"game", "scenario", "units", "world"},
-    "metrics": {"agent", "game", "records", "scenario", "units", "windows", "world"},
+    "metrics": {"agent", "game", "records", "scenario", "units", "world"},
+    "verdict": {"agent", "game", "metrics", "records", "scenario", "units", "windows"},
+    "result": {"agent", "metrics", "records", "scenario", "units", "verdict", "windows"},
     "simulation": {
         "agent",
         "mission",
