@@ -78,7 +78,6 @@ ARROWS: dict[str, set[str]] = {
         "scenario",
         "units",
         "verdict",
-        "windows",
     },
     "simulation": {
         "agent",

@@ -43,7 +43,7 @@ def summed_s(name: str, lost: LostTime, scenario: Scenario, records: RunRecords)
     duration_s = scenario.communication.duration_s
     costs_s = {duration_s: duration_s}
     for meeting in meetings(scenario, records):
-        if meeting.starts_s is not None and meeting.additional_s is not None:
+        if meeting.starts_s is not None:
             costs_s[meeting.starts_s + duration_s] = meeting.additional_s[name] + duration_s
     for finished_s in lost.finished_s:
         yield sum(cost_s for over_s, cost_s in costs_s.items() if over_s <= finished_s)

@@ -3,12 +3,13 @@
 from pathlib import Path
 
 from support.hand_made_run import END_S, hand_made_records, hand_made_scenario
+from tlcomm_core.method import Method
 from tlcomm_core.result import RunFacts, result_document
 from tlcomm_tools.folder import RunFolder
 from tlcomm_tools.summary import format_summary
 from tlcomm_tools.table import format_number, format_table
 
-FACTS = RunFacts("team", "best-response", 3, 1.0, END_S, 12.5)
+FACTS = RunFacts(Method.TEAM, "best-response", 3, 1.0, END_S, 12.5)
 
 
 def test_a_summary_says_what_matters() -> None:
