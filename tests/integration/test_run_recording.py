@@ -81,7 +81,8 @@ def assert_readable(folder: Path) -> None:
     assert run.end_ns > 0
     with AnyReader([folder / "bag"]) as reader:
         assert reader.message_count > 0
-    assert audit_run(loads(run.notes["scenario"]), run).violations == ()
+    scenario = loads(run.notes["scenario"])
+    assert audit_run(scenario, run.method, run.records, run.end_ns).violations == ()
 
 
 @pytest.fixture(scope="module")
