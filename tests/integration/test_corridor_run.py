@@ -10,6 +10,7 @@ import pytest
 from support.gate import gate
 from tlcomm_core.agent.channel import LOST
 from tlcomm_core.game.solver import DEFAULT
+from tlcomm_core.method import Method
 from tlcomm_core.mission import Mission
 from tlcomm_core.pace import Pace, parse_pace
 from tlcomm_core.records import event_log
@@ -34,7 +35,7 @@ def options_of(
     """Return a run of the corridor, or of another scenario."""
     return RunOptions(
         scenario=scenario,
-        method="team",
+        method=Method.TEAM,
         solver=DEFAULT,
         seed=0,
         pace=pace,

@@ -141,6 +141,13 @@ def test_every_topic_is_in_the_bag(finished: tuple[Path, str]) -> None:
     assert min(counts[f"/{name}/cmd_vel"] for name in AGENTS) > 10
 
 
+def test_the_bag_says_what_was_run(finished: tuple[Path, str]) -> None:
+    """Scenario, method, solver and seed are inside, so that others need nothing beside it."""
+    notes = read_run(finished[0] / "bag").notes
+    assert loads(notes.pop("scenario")).name == "corridor"
+    assert notes == {"method": "team", "solver": "coalition", "seed": "0"}
+
+
 def test_the_audit_passes(finished: tuple[Path, str]) -> None:
     """The audit of the run's folder finds nothing, and tasks done again and again."""
     done = subprocess.run(
