@@ -26,6 +26,7 @@ from tlcomm_core.agent.events import MessageHeard, OdometryReceived, TimePassed
 from tlcomm_core.agent.member import Member, create
 from tlcomm_core.game.solver import BEST_RESPONSE
 from tlcomm_core.geometry import Pose
+from tlcomm_core.method import Method
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.protocol.messages import Message, PlanOffer
 from tlcomm_core.scenario.loader import loads
@@ -91,6 +92,7 @@ class LoneAgent:
 
     Attributes:
         site: where it is, unless that is the hall with ``count`` agents.
+        method: of coordination.
         done: all actions with their times, in order.
     """
 
@@ -98,6 +100,7 @@ class LoneAgent:
     count: int
     faults: Faults | None = None
     site: Site | None = None
+    method: Method = Method.TEAM
     now_s: float = 0.0
     done: list[tuple[float, Action]] = field(default_factory=list)
 
@@ -105,7 +108,9 @@ class LoneAgent:
         """Stand at the start, and see it."""
         site = self.site or hall(self.count, self.faults)
         atlas = Atlas(site.grid, site.region_discs)
-        self.member = create(self.name, site, Pacing.EVENT, atlas, solver=BEST_RESPONSE)
+        self.member = create(
+            self.name, site, Pacing.EVENT, atlas, solver=BEST_RESPONSE, method=self.method
+        )
         self.brain = self.member._brain
         self.pose = Pose(*STARTS[self.name])
         self.velocity = Drive(0.0, 0.0)

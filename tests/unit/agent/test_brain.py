@@ -209,5 +209,5 @@ def test_what_is_within_tolerance_counts_as_arrived(
     """Predictions go on from where a leg was to end, unless the agent is elsewhere indeed."""
     expected = Pose(1.0, 1.0, math.pi)
     actual = Pose(1.0, 1.0 + off_m, -math.pi + off_rad)
-    taken = LoneAgent("one", 1).brain._taken_for(expected, actual)
+    taken = LoneAgent("one", 1).brain._journey._taken_for(expected, actual)
     assert taken is (expected if is_taken else actual)

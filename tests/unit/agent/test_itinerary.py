@@ -108,7 +108,12 @@ def test_the_pose_at_the_meeting_is_foreseen() -> None:
     assert itinerary.leg(pose, meeting).arrival == expected
 
 
-def test_nothing_is_done_before_an_agreement() -> None:
-    """Setting out without one is a bug."""
+def test_without_a_meeting_ahead_steps_follow_one_another() -> None:
+    """However long that goes on; to leave for a meeting that nobody has agreed on is a bug."""
+    itinerary, pose = Itinerary(PLAN, PLANT.times, RETRIES), START
+    for _ in range(20):
+        assert itinerary.next_meeting(pose, 1e6) is None
+        pose = itinerary.leg(pose, None).arrival
+        itinerary.finish_step()
     with pytest.raises(LocalMisuseError, match="before any meeting"):
-        Itinerary(PLAN, PLANT.times, RETRIES).next_meeting(START, 0.0)
+        itinerary.meeting_pose(pose)

@@ -84,7 +84,7 @@ def test_what_is_said_after_the_agreement_is_no_offer() -> None:
     one, two = Timed("one"), Timed("two")
     talk(one, two, 0, 30)
     assert one.timings
-    confirmation = two.member._brain._activity.negotiation._confirming.repetition()  # type: ignore[union-attr]
+    confirmation = two.member._brain._meeting.negotiation._confirming.repetition()  # type: ignore[union-attr]
     fresh = type(confirmation)(
         confirmation.sender,
         confirmation.round,
@@ -92,7 +92,7 @@ def test_what_is_said_after_the_agreement_is_no_offer() -> None:
         confirmation.digest,
         ("two",),
     )
-    one.member._brain._activity.negotiation._confirming._flood._shown.clear()  # type: ignore[union-attr]
+    one.member._brain._meeting.negotiation._confirming._flood._shown.clear()  # type: ignore[union-attr]
     one.member.receive(fresh, 30 * LATENCY_NS)
     assert one.step(31 * LATENCY_NS) != []
     assert one._timed._offered_wall_s is None

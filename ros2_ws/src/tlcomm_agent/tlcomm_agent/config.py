@@ -11,6 +11,7 @@ from typing import Final, Self
 
 from tlcomm_core.errors import InputError
 from tlcomm_core.game.solver import DEFAULT, SOLVERS, Solver
+from tlcomm_core.method import Method, parse_method
 from tlcomm_core.pace import Pace, parse_pace
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.model import Scenario
@@ -18,7 +19,14 @@ from tlcomm_core.scenario.model import Scenario
 __all__ = ["PARAMETERS", "AgentConfig"]
 
 PARAMETERS: Final[Mapping[str, object]] = MappingProxyType(
-    {"scenario": "", "pace": "lockstep", "seed": 0, "solver": DEFAULT.name, "recorder": False}
+    {
+        "scenario": "",
+        "pace": "lockstep",
+        "seed": 0,
+        "solver": DEFAULT.name,
+        "method": Method.TEAM.value,
+        "recorder": False,
+    }
 )
 """The node's parameters and their defaults."""
 
@@ -33,6 +41,7 @@ class AgentConfig:
         pace: lock step, or the clock runs by itself.
         seed: of what befalls it.
         solver: how its team finds the next meetings.
+        method: of coordination.
         has_recorder: whether to wait for a recorder before saying that it is ready.
     """
 
@@ -41,6 +50,7 @@ class AgentConfig:
     pace: Pace
     seed: int
     solver: Solver
+    method: Method
     has_recorder: bool
 
     @classmethod
@@ -66,9 +76,10 @@ class AgentConfig:
         solver = SOLVERS.get(str(get("solver")))
         if solver is None:
             raise InputError(f"solver: {get('solver')!r} isn't one of {', '.join(SOLVERS)}")
-        solver.check_team(len(scenario.agents))
+        method = parse_method(str(get("method")))
+        method.solver(solver).check_team(len(scenario.agents))
         pace = parse_pace(str(get("pace")))
-        return cls(name, scenario, pace, seed, solver, bool(get("recorder")))
+        return cls(name, scenario, pace, seed, solver, method, bool(get("recorder")))
 
     @property
     def others(self) -> tuple[str, ...]:

@@ -89,7 +89,7 @@ class AgentNode(Node):
         context: Context | None = None,
         on_ready: Callable[[], None] = lambda: None,
     ) -> None:
-        """Read the parameters ``scenario``, ``pace``, ``seed``, ``solver`` and ``recorder``; plan.
+        """Read the parameters (``config.PARAMETERS``); plan.
 
         Args:
             namespace: the agent's name, unless the command line says it.
@@ -119,7 +119,9 @@ class AgentNode(Node):
         site = Site.from_scenario(self.config.scenario)
         atlas = Atlas(site.grid, site.region_discs)
         config = self.config
-        self._member: Final = create(config.name, site, pacing, atlas, config.seed, config.solver)
+        self._member: Final = create(
+            config.name, site, pacing, atlas, config.seed, config.solver, config.method
+        )
         self._timed: Final = TimedMember(self._member, time.thread_time, time.time)
         self._taken: Final[Counter[str]] = Counter()
         latency_s = self.config.scenario.communication.hop_latency_s

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tlcomm_core.game.solver import DEFAULT, Solver
+from tlcomm_core.method import Method
 from tlcomm_core.scenario.site import Site, later_grids
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.world.lockstep import StopRule
@@ -26,7 +27,8 @@ class Mission:
         seed: of all that is random.
         rounds: the run ends D_c after the meeting of this round; or ``None``.
         until_s: the run ends at this simulated time; or ``None``.
-        solver: of the rounds.
+        solver: of the rounds, as far as the method leaves the choice.
+        method: of coordination.
     """
 
     site: Site
@@ -34,6 +36,7 @@ class Mission:
     rounds: int | None
     until_s: float | None
     solver: Solver = DEFAULT
+    method: Method = Method.TEAM
 
     @property
     def stop(self) -> StopRule:

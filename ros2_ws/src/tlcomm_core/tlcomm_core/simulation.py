@@ -89,7 +89,15 @@ class _Harness:
         self.left = Simulated(RunRecords(messages_sent=silent, bytes_sent=silent.copy()))
         atlas = Atlas(mission.site.grid, mission.site.region_discs)
         self._members: dict[str, Member] = {
-            name: create(name, mission.site, Pacing.EVENT, atlas, mission.seed, mission.solver)
+            name: create(
+                name,
+                mission.site,
+                Pacing.EVENT,
+                atlas,
+                mission.seed,
+                mission.solver,
+                mission.method,
+            )
             for name in scenario.agents
         }
         self.left.records.messages_undelivered = {

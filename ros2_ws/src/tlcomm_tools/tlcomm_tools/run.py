@@ -15,6 +15,7 @@ from typing import Any, assert_never
 
 from tlcomm_core.errors import InputError
 from tlcomm_core.game.solver import Solver
+from tlcomm_core.method import Method
 from tlcomm_core.metrics import RunFacts, result_document
 from tlcomm_core.pace import Pace
 from tlcomm_core.records import RunRecords
@@ -57,7 +58,7 @@ class RunOptions:
     """
 
     scenario: Scenario
-    method: str
+    method: Method
     solver: Solver
     seed: int
     pace: Pace
@@ -118,6 +119,8 @@ def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
     scenario = ("--scenario", str(folder.scenario.absolute()))
     seed = ("--seed", str(options.seed))
     common = (*scenario, *seed, "--pace", str(options.pace), "--recorder")
+    solver, method = options.solver.name, options.method.value
+    coordination = ("--solver", solver, "--method", method)
     limit_s = time_limit_s(options.scenario, options.rounds, options.until_s)
     end: tuple[str, ...] = ("--until", repr(limit_s))
     if options.rounds is not None:
@@ -132,7 +135,7 @@ def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
         spec("recorder", "recorder", *bag, *scenario, stop_last=True),
         spec("sim", "sim", *common, *end),
         *(
-            spec(name, "agent", "--name", name, "--solver", options.solver.name, *common)
+            spec(name, "agent", "--name", name, *coordination, *common)
             for name in options.scenario.agents
         ),
     ]
@@ -145,7 +148,7 @@ def _report(
     failure = outcome if isinstance(outcome, RunFailed) else None
     facts = RunFacts(
         method=options.method,
-        solver=options.solver.name,
+        solver=options.method.solver(options.solver).name,
         seed=options.seed,
         pace="lockstep" if options.pace.factor is None else options.pace.factor,
         sim_s=_simulated_s(recorded, outcome, last),

@@ -190,11 +190,15 @@ class Itinerary:
     def next_meeting(self, pose: Pose, now_s: float) -> Strategy | None:
         """Return the meeting if it is time to go there; ``None`` if a step comes first.
 
+        Without a meeting ahead, steps follow one another for ever.
+
         Args:
             pose: where the agent is to set out from.
             now_s: the time.
         """
-        meeting = self._agreed()
+        meeting = self._meeting
+        if meeting is None:
+            return None
         if not self._steps_left() or not self._ways.lead(pose, self.step.location):
             return meeting
         if not self._is_delayed:

@@ -2,7 +2,6 @@
 
 ``Meeting``  the negotiation, and how long it is worth staying for it
 ``News``     what happens there
-``is_due``   whether a time has come
 
 A meeting begins with the last arrival, t_c, and lasts for D_c. Whoever then holds the strategy as
 agreed, and sees that its neighbours do, leaves. On a bad network some don't:
@@ -25,16 +24,9 @@ from tlcomm_core.protocol.actions import Action
 from tlcomm_core.protocol.negotiation import Negotiation
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.protocol.whereabouts import Ending
+from tlcomm_core.units import is_due
 
-__all__ = ["Meeting", "News", "is_due"]
-
-# Simulated time has nanoseconds: a time less than this ahead has come.
-_RESOLUTION_S: Final = 1e-9
-
-
-def is_due(time_s: float, now_s: float) -> bool:
-    """Tell whether a time has come."""
-    return now_s >= time_s - _RESOLUTION_S
+__all__ = ["Meeting", "News"]
 
 
 class News(Enum):

@@ -26,14 +26,15 @@ from tlcomm_core.agent.events import (
     TimePassed,
 )
 from tlcomm_core.agent.faults import ActionFaults, fault_rng
+from tlcomm_core.agent.methods import brain_for, rules_for
 from tlcomm_core.agent.planner import Planner, local_plan, plan_for
 from tlcomm_core.agent.radio import OUT_OF_RANGE, UNSEEN, Radio
 from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.agent.settings import Settings
 from tlcomm_core.errors import PlanningError
-from tlcomm_core.game.rules import Rules
 from tlcomm_core.game.solver import DEFAULT, Solver
 from tlcomm_core.geometry import Pose
+from tlcomm_core.method import Method
 from tlcomm_core.planning.plan import LocalPlan
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.protocol.negotiation import Phase
@@ -171,7 +172,7 @@ class Member:
         return min((time_ns for time_ns in (need_ns, due_ns) if time_ns is not None), default=None)
 
 
-def team_of(site: Site, solver: Solver = DEFAULT) -> Team:
+def team_of(site: Site, solver: Solver = DEFAULT, method: Method = Method.TEAM) -> Team:
     """Return what every member of the scenario's team knows of it."""
     communication = site.scenario.communication
     return Team(
@@ -179,11 +180,11 @@ def team_of(site: Site, solver: Solver = DEFAULT) -> Team:
         planned_range_m=site.planned_range_m,
         period_s=communication.period_s,
         duration_s=communication.duration_s,
-        rules=Rules(communication.separation_m, communication.resilience),
+        rules=rules_for(method, communication),
         margin_s=communication.margin_s,
         on_infeasible=OnInfeasible(communication.on_infeasible),
         clearance_m=site.planned_clearance_m,
-        solver=solver,
+        solver=method.solver(solver),
     )
 
 
@@ -194,6 +195,7 @@ def create(
     atlas: Atlas,
     seed: int = 0,
     solver: Solver = DEFAULT,
+    method: Method = Method.TEAM,
 ) -> Member:
     """Return a member of the scenario's team, with its local plan made.
 
@@ -204,7 +206,8 @@ def create(
         atlas: travel times on the scenario's grid and round its regions; members in one
             process may share it.
         seed: of what befalls it, the run's.
-        solver: how its team finds the next meetings.
+        solver: how its team finds the next meetings, where the method leaves the choice.
+        method: of coordination.
 
     Raises:
         PlanningError: the agent's task has no plan.
@@ -213,7 +216,7 @@ def create(
     allowance_s = _ALLOWANCE_S[pacing]
     tolerance_m = scenario.drive_of(name).position_tolerance_m
     travel = travel_of(name, site, atlas, allowance_s)
-    team = team_of(site, solver)
+    team = team_of(site, solver, method)
     # Members' plans lead through regions: with this done, the first round takes no longer than
     # later ones.
     travel.prepare(site.region_location.values())
@@ -222,7 +225,8 @@ def create(
     def planner(task: str | None, start: Pose, now: TravelTimes) -> LocalPlan:
         return plan_for(task, start, name, site, now)
 
-    brain = Brain(
+    brain = brain_for(
+        method,
         Settings(
             name=name,
             plan=local_plan(name, site, travel),
@@ -235,7 +239,7 @@ def create(
             pacing=pacing,
             faults=ActionFaults(scenario.faults.action_failure, fault_rng(seed, name)),
             retries=scenario.faults.retries,
-        )
+        ),
     )
     # Free running, a message is heard when it comes; in lock step, one hop's latency after.
     latency_s = scenario.communication.hop_latency_s if pacing is Pacing.EVENT else 0.0

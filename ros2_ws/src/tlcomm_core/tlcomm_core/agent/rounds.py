@@ -14,7 +14,7 @@ from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.game.candidates import candidates
 from tlcomm_core.game.links import Links
 from tlcomm_core.game.offer import MemberOffer, offer_flaw
-from tlcomm_core.game.problem import RoundProblem
+from tlcomm_core.game.problem import Candidates, RoundProblem
 from tlcomm_core.protocol.team import Team
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import Motion, TravelTimes
@@ -71,13 +71,21 @@ class MeetingRounds:
             window_s=window_s,
             links=self._links_on(atlas),
             candidates=tuple(
-                candidates(
-                    offer, departure_s, window_s, self._travel_of(offer, atlas), self._team.margin_s
-                )
-                for offer in offers
+                self._candidates(offer, departure_s, window_s, atlas) for offer in offers
             ),
             rules=self._team.rules,
         )
+
+    def _candidates(
+        self, offer: MemberOffer, departure_s: float, window_s: tuple[float, float], atlas: Atlas
+    ) -> Candidates:
+        travel = self._travel_of(offer, atlas)
+        own = candidates(offer, departure_s, window_s, travel, self._team.margin_s)
+        if not self._team.rules.keeps_places:
+            return own
+        here = atlas.grid.location_at(offer.x_m, offer.y_m)
+        assert here is not None, "a sound offer is made where an agent can be"
+        return own.only_at(here)
 
     def _atlas_of(self, offers: Sequence[MemberOffer]) -> Atlas:
         """Return travel times on the oldest map that sound offers were made with."""

@@ -1,5 +1,7 @@
 """The initial team strategy: everybody at one place, chosen exactly, or around one.
 
+A team that keeps its places begins with the best times.
+
 ``initial_profile``  S⁰, the least potential over all common places and admissible times
 """
 
@@ -10,18 +12,20 @@ from tlcomm_core.errors import InfeasibleRoundError
 from tlcomm_core.game.common_place import cheapest_common_place
 from tlcomm_core.game.formation import cheapest_formation
 from tlcomm_core.game.problem import Profile, RoundProblem
+from tlcomm_core.game.standing import cheapest_times
 
 __all__ = ["initial_profile"]
 
 
 def initial_profile(problem: RoundProblem) -> Profile:
-    """Return the common place and the candidates of least potential.
+    """Return the common place and the candidates of least potential; or what the rules leave.
 
     Args:
         problem: at least one agent.
 
     Returns:
-        S⁰, with one location for all; a formation if the rules demand a separation.
+        S⁰, with one location for all; a formation if the rules demand a separation; everybody
+        where it stands if they keep the places.
 
     Raises:
         InfeasibleRoundError: some agents have no admissible candidate, or no place is
@@ -31,6 +35,8 @@ def initial_profile(problem: RoundProblem) -> Profile:
     Deviates: agents that mustn't share a place begin in a formation around one.
     """
     _check_feasible(problem)
+    if problem.rules.keeps_places:
+        return cheapest_times(problem)
     if problem.rules.separation_m:
         return _spread(problem)
     profile = cheapest_common_place(problem)

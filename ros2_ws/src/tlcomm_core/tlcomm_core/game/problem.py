@@ -37,6 +37,17 @@ class Candidates:
     arrival_s: NDArray[np.float64]
     extra_s: NDArray[np.float64]
 
+    def only_at(self, location: int) -> "Candidates":
+        """Return those at one location."""
+        elsewhere = np.arange(self.arrival_s.shape[1]) != location
+        kept = np.isfinite(self.arrival_s[:, location])
+        return Candidates(
+            agent=self.agent,
+            task_index=self.task_index[kept],
+            arrival_s=np.where(elsewhere, np.inf, self.arrival_s)[kept],
+            extra_s=np.where(elsewhere, np.inf, self.extra_s)[kept],
+        )
+
 
 @dataclass(frozen=True, slots=True)
 class Choice:

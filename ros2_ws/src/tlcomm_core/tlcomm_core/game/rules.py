@@ -42,10 +42,12 @@ class Rules:
         separation_m: the least distance between two agents' places; 0 lets them share one.
         resilience: how many agents may fail so that the others are still connected, 0 or 1. A team
             of less than three is only connected.
+        keeps_places: everybody meets where it stands now, so that only the time is open.
     """
 
     separation_m: float = 0.0
     resilience: int = 0
+    keeps_places: bool = False
 
 
 PLAIN_RULES: Final = Rules()

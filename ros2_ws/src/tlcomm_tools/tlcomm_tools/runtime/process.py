@@ -63,6 +63,7 @@ def _parser() -> argparse.ArgumentParser:
     agent = roles.add_parser("agent", help="an agent")
     agent.add_argument("--name", required=True)
     agent.add_argument("--solver", required=True)
+    agent.add_argument("--method", required=True)
     sim = roles.add_parser("sim", help="world and clock")
     sim.add_argument("--rounds", type=int)
     sim.add_argument("--until", type=float, metavar="S")
@@ -86,6 +87,7 @@ def _be_agent(arguments: argparse.Namespace, notifier: Notifier) -> int:
     parameters = [
         *_common(arguments),
         Parameter("solver", value=arguments.solver),
+        Parameter("method", value=arguments.method),
         Parameter("use_sim_time", value=not parse_pace(arguments.pace).is_lockstep),
     ]
     return live(

@@ -21,11 +21,11 @@ from typing import Any, Final
 
 from tlcomm_core.errors import InputError
 from tlcomm_core.game.solver import DEFAULT, SOLVERS, Solver
+from tlcomm_core.method import Method
 from tlcomm_core.pace import Pace, parse_pace
 
 __all__ = [
     "LOCKSTEP",
-    "METHODS",
     "add_mission_arguments",
     "add_pace_argument",
     "add_seed_argument",
@@ -46,8 +46,6 @@ __all__ = [
 ]
 
 LOCKSTEP: Final = "lockstep"
-METHODS: Final = ("team",)
-_LATER_METHODS: Final = ("static", "pairwise", "all-time")
 _DEFAULT_ROUNDS: Final = 5
 _LEAST_TEAM: Final = 2
 # As large as a parameter of a ROS node may be.
@@ -145,17 +143,12 @@ def pace(text: str) -> Pace:
         ) from None
 
 
-def method(text: str) -> str:
+def method(text: str) -> Method:
     """Read a method of coordination."""
-    if text in _LATER_METHODS:
-        available = ", ".join(map(repr, METHODS))
-        raise argparse.ArgumentTypeError(
-            f"method {text!r} is not available yet (available: {available})"
-        )
-    if text not in METHODS:
-        choices = ", ".join(map(repr, METHODS))
+    if text not in list(Method):
+        choices = ", ".join(repr(own.value) for own in Method)
         raise argparse.ArgumentTypeError(f"invalid choice: {text!r} (choose from {choices})")
-    return text
+    return Method(text)
 
 
 def solver(text: str) -> Solver:
@@ -179,7 +172,11 @@ def add_mission_arguments(parser: argparse.ArgumentParser) -> None:
         "--until", type=positive_float, metavar="S", help="run until this simulated time (s)"
     )
     parser.add_argument(
-        "--method", type=method, default=METHODS[0], metavar="NAME", help="team (the default)"
+        "--method",
+        type=method,
+        default=Method.TEAM,
+        metavar="NAME",
+        help=f"of coordination: {', '.join(Method)} (default {Method.TEAM})",
     )
     add_solver_argument(parser)
     add_seed_argument(parser)
@@ -198,7 +195,7 @@ def add_solver_argument(parser: argparse.ArgumentParser) -> None:
         type=solver,
         default=DEFAULT,
         metavar="NAME",
-        help=f"of the rounds: {', '.join(SOLVERS)} (default {DEFAULT.name})",
+        help=f"of the team's rounds: {', '.join(SOLVERS)} (default {DEFAULT.name})",
     )
 
 

@@ -42,7 +42,7 @@ def run(options: Namespace) -> Status:
 
 def run_scenario(scenario: Scenario, options: Namespace) -> Status:
     """Run a scenario with the options that ``add_arguments`` describes; show the results."""
-    options.solver.check_team(len(scenario.agents))
+    options.method.solver(options.solver).check_team(len(scenario.agents))
     rounds, until_s = mission_end(options)
     what = RunOptions(
         scenario=scenario,

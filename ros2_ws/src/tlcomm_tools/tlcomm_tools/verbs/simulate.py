@@ -45,10 +45,13 @@ def run(options: Namespace) -> Status:
             f"'tlcomm simulate' knows {LOCKSTEP!r} only"
         )
     scenario = load_scenario(options.scenario)
-    options.solver.check_team(len(scenario.agents))
+    solver = options.method.solver(options.solver)
+    solver.check_team(len(scenario.agents))
     rounds, until_s = mission_end(options)
     limit_s = time_limit_s(scenario, rounds, until_s)
-    mission = Mission(Site.from_scenario(scenario), options.seed, rounds, limit_s, options.solver)
+    mission = Mission(
+        Site.from_scenario(scenario), options.seed, rounds, limit_s, solver, options.method
+    )
     folder = RunFolder.create(scenario.name, options.method, options.out)
     folder.write_scenario(dumps(scenario))
     begun_s = time.perf_counter()
@@ -56,7 +59,7 @@ def run(options: Namespace) -> Status:
         left = simulate(mission, lambda sim_ns, meetings: progress.show(seconds(sim_ns), meetings))
     facts = RunFacts(
         method=options.method,
-        solver=options.solver.name,
+        solver=solver.name,
         seed=options.seed,
         pace=LOCKSTEP,
         sim_s=seconds(left.sim_ns),
