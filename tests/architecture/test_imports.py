@@ -32,6 +32,7 @@ ARROWS: dict[str, set[str]] = {
     "workspace": {"errors", "geometry"},
     "ltl": {"errors"},
     "scenario": {"errors", "geometry", "ltl", "workspace"},
+    "field": {"scenario"},
     "planning": {"errors", "geometry", "ltl", "workspace"},
     "game": {"errors", "geometry", "planning", "workspace"},
     "protocol": {"errors", "game", "units", "world.radio"},
