@@ -1,12 +1,14 @@
 """From a run's records to what is drawn of them.
 
 ``ground``            the workspace
+``field``             what was measured in it, as it truly was
 ``path``              an agent's way, thinned
 ``spans``             what an agent did when
 ``satisfactions_s``   when its task was satisfied
 ``meetings``          where was met, and who was linked
 ``agreements``        what the agreed team strategies cost
 ``additional_times``  what rounds cost, by the results
+``estimates``         what an agent took the field for
 """
 
 from bisect import bisect_right
@@ -18,7 +20,7 @@ from numpy.typing import NDArray
 
 from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.game.strategy import TeamStrategy
-from tlcomm_core.records import RunRecords, TaskRecord
+from tlcomm_core.records import EstimateRecord, RunRecords, TaskRecord
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.world.observation import Connectivity, Odometry
@@ -29,12 +31,16 @@ from tlcomm_tools.figures.elements import (
     Ground,
     Meeting,
     Path,
+    Profile,
+    Series,
     Span,
 )
 
 __all__ = [
     "additional_times",
     "agreements",
+    "estimates",
+    "field",
     "ground",
     "meetings",
     "path",
@@ -45,7 +51,10 @@ __all__ = [
 # What nobody sees in a figure: places and times are kept to a millimetre and a millisecond, and a
 # way is straight where it is off by no more than this.
 _DIGITS: Final = 3
+_FINE_DIGITS: Final = 5
 _STRAIGHT_M: Final = 0.02
+# Estimates that follow each other faster than this are one step, to the last of them.
+_STEP_S: Final = 0.5
 
 
 def ground(scenario: Scenario) -> Ground:
@@ -58,6 +67,16 @@ def ground(scenario: Scenario) -> Ground:
         obstacles_m=workspace.obstacles_m,
         regions_m={name: (*own.at_m, own.radius_m) for name, own in workspace.regions.items()},
     )
+
+
+def field(scenario: Scenario, end_s: float) -> Profile | None:
+    """Return ν(t) from the beginning to the end of a run; ``None`` if nothing is measured."""
+    if scenario.field is None:
+        return None
+    times_s, values = np.array(scenario.field.profile).T
+    bends_s = [0.0, *(time_s for time_s in times_s.tolist() if 0.0 < time_s < end_s), end_s]
+    at_bends = np.interp(bends_s, times_s, values)
+    return Profile(times_s=tuple(bends_s), values=tuple(at_bends.tolist()))
 
 
 def path(odometry: Iterable[Odometry]) -> Path:
@@ -134,6 +153,25 @@ def additional_times(rounds: Iterable[Mapping[str, Any]]) -> tuple[AdditionalTim
         if known_s:
             found.append(AdditionalTime(round=own["round"], by_agent_s=known_s))
     return tuple(found)
+
+
+def estimates(records: Iterable[EstimateRecord]) -> Series:
+    """Return what one agent took the field for.
+
+    Args:
+        records: of this agent, in order of time.
+    """
+    steps: list[tuple[float, float]] = []
+    for record in records:
+        step = (_rounded(seconds(record.stamp_ns)), round(record.value, _FINE_DIGITS))
+        if steps and step[0] - steps[-1][0] < _STEP_S:
+            # The estimates of one exchange are told apart by nobody; where it leads to counts.
+            step = (steps.pop()[0], step[1])
+        if not steps or steps[-1][1] != step[1]:
+            steps.append(step)
+    return Series(
+        times_s=tuple(time_s for time_s, _ in steps), values=tuple(value for _, value in steps)
+    )
 
 
 class _Course:

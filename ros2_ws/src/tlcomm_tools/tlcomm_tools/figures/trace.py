@@ -123,8 +123,12 @@ class Trace(Element):
             additional_times=reduction.additional_times(result["rounds"]),
             agreements=reduction.agreements(records),
             courses=tuple(courses),
-            estimates={},
-            field=None,
+            estimates={
+                name: reduction.estimates(own)
+                for name, own in _by_agent(scenario, records.estimates).items()
+                if own
+            },
+            field=reduction.field(scenario, end_s),
         )
 
     @classmethod
