@@ -198,6 +198,7 @@ class _Course:
                 self._end(Activity.WAIT, time_s)
                 self._begin(Activity.MEETING, "", time_s)
             case TaskEventKind.MEETING_ENDED:
+                self._end(Activity.WAIT, time_s)
                 self._end(Activity.MEETING, time_s)
             case _:
                 pass
