@@ -3,9 +3,9 @@
 import pytest
 
 from tlcomm_core.errors import InfeasibleRoundError
-from tlcomm_core.metrics import RunFacts, result_document
 from tlcomm_core.mission import Mission
 from tlcomm_core.records import TaskRecord
+from tlcomm_core.result import RunFacts, result_document
 from tlcomm_core.scenario.loader import loads
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.scenario.site import Site

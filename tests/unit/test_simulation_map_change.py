@@ -8,9 +8,9 @@ import pytest
 from support.gate import CLOSED_S, OPENED_S, SHUT_S, gate
 from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.game.solver import BEST_RESPONSE
-from tlcomm_core.metrics import RunFacts, result_document
 from tlcomm_core.mission import Mission
 from tlcomm_core.records import event_log
+from tlcomm_core.result import RunFacts, result_document
 from tlcomm_core.scenario.site import Site, later_grids
 from tlcomm_core.simulation import Simulated, simulate
 from tlcomm_core.units import seconds

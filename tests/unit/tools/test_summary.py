@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from support.hand_made_run import END_S, hand_made_records, hand_made_scenario
-from tlcomm_core.metrics import RunFacts, result_document
+from tlcomm_core.result import RunFacts, result_document
 from tlcomm_tools.folder import RunFolder
 from tlcomm_tools.summary import format_summary
 from tlcomm_tools.table import format_number, format_table
