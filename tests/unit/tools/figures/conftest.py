@@ -5,9 +5,9 @@ from typing import Any
 
 import pytest
 
-from tlcomm_core.metrics import RunFacts, result_document
 from tlcomm_core.mission import Mission
 from tlcomm_core.records import EstimateRecord
+from tlcomm_core.result import RunFacts, result_document
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate

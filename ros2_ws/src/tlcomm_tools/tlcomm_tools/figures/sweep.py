@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 from typing import Final
 
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -44,10 +45,19 @@ def sweep_figure(rows: Sequence[Row], swept: str, label: str) -> Figure:
         axes.grid(visible=True, axis="y")
     for axes in panels.flat[len(metrics) :]:
         axes.set_axis_off()
+    figure.align_ylabels()
     figure.supxlabel(label, fontsize=8.0)
-    handles, names = panels.flat[0].get_legend_handles_labels()
-    figure.legend(handles, names, loc="outside upper center", ncols=len(names))
+    _add_legend(figure)
     return figure
+
+
+def _add_legend(figure: Figure) -> None:
+    """Name each line once, whichever panels it is in."""
+    handles: dict[str, Artist] = {}
+    for axes in figure.axes:
+        own, names = axes.get_legend_handles_labels()
+        handles |= dict(zip(names, own, strict=True))
+    figure.legend(handles=list(handles.values()), loc="outside upper center", ncols=len(handles))
 
 
 def _draw_method(axes: Axes, rows: Sequence[Row], metric: str, swept: str) -> None:
