@@ -40,7 +40,7 @@ def additional_time_figure(traces: Sequence[Trace]) -> Figure:
             label=f"{trace.method} (mean {fmean(means_s):.2f} s)",
         )
     axes.set_ylim(bottom=0.0)
-    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True, steps=[1, 2, 5, 10]))
     axes.grid(visible=True, axis="y")
     axes.set_xlabel("round")
     axes.set_ylabel("additional time per agent (s)")

@@ -8,6 +8,7 @@ from typing import Final
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle, Rectangle
 from matplotlib.patheffects import withStroke
+from matplotlib.ticker import MaxNLocator
 
 from tlcomm_tools.figures.elements import Ground
 from tlcomm_tools.figures.style import OBSTACLE_GREY
@@ -39,6 +40,8 @@ def draw_ground(axes: Axes, ground: Ground, *, named: bool = True) -> None:
     axes.set_xlim(left_m, left_m + width_m)
     axes.set_ylim(bottom_m, bottom_m + height_m)
     axes.set_aspect("equal")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
     axes.spines[["top", "right"]].set_visible(True)
     axes.set_xlabel("x (m)")
     axes.set_ylabel("y (m)")

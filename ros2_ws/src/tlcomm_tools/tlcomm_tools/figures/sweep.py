@@ -7,7 +7,6 @@ import math
 from collections.abc import Sequence
 from typing import Final
 
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -53,10 +52,10 @@ def sweep_figure(rows: Sequence[Row], swept: str, label: str) -> Figure:
 
 def _add_legend(figure: Figure) -> None:
     """Name each line once, whichever panels it is in."""
-    handles: dict[str, Artist] = {}
-    for axes in figure.axes:
-        own, names = axes.get_legend_handles_labels()
-        handles |= dict(zip(names, own, strict=True))
+    named = [
+        pair for axes in figure.axes for pair in zip(*axes.get_legend_handles_labels(), strict=True)
+    ]
+    handles = {name: handle for handle, name in named}
     figure.legend(handles=list(handles.values()), loc="outside upper center", ncols=len(handles))
 
 
