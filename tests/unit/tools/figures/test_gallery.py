@@ -1,21 +1,32 @@
 """Tests of ``tlcomm_tools.figures.gallery``."""
 
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
 from PIL import Image
 
 from tlcomm_tools.figures.gallery import draw_comparison, draw_run, draw_sweep
-from tlcomm_tools.figures.metric_values import Row
 from tlcomm_tools.figures.trace import Trace
 
-ROWS: list[Row] = [
-    {"method": method, "seed": seed, "range": range_m, "additional_time_s": 3.0 + seed}
-    for method in ("team", "static")
-    for seed in range(3)
-    for range_m in (1.0, 1.5)
-]
+
+def found(*values: float | None) -> dict[str, Any]:
+    """Return a comparison's document with one measure."""
+    return {
+        "sweep": {"name": "range"},
+        "measures": {"wait": {"label": "wait (s)", "digits": 2}},
+        "points": [
+            {
+                "value": value,
+                "means": {
+                    method: {"wait": {"mean": mean, "low": mean - 1.0, "high": mean + 1.0}}
+                    for method, mean in (("team", 3.0), ("static", 5.0))
+                },
+            }
+            for value in values
+        ],
+    }
 
 
 def check(paths: tuple[Path, ...], names: set[str]) -> None:
@@ -45,22 +56,24 @@ def test_what_a_run_does_not_have_is_not_drawn(trace: Trace, tmp_path: Path) -> 
 
 
 def test_a_comparison_has_its_figures(trace: Trace, tmp_path: Path) -> None:
-    """Metrics if there are rows."""
+    """Measures if there are any."""
     traces = [trace, trace.model_copy(update={"method": "static"})]
     check(draw_comparison(traces, tmp_path), {"additional_time", "estimates"})
-    check(draw_comparison(traces, tmp_path, ROWS), {"additional_time", "estimates", "metrics"})
+    check(
+        draw_comparison(traces, tmp_path, found(None)), {"additional_time", "estimates", "metrics"}
+    )
 
 
 def test_a_comparison_of_nothing_draws_nothing(trace: Trace, tmp_path: Path) -> None:
-    """Where nobody met and nothing was measured, as without metrics."""
-    lone = trace.model_copy(update={"additional_times": (), "field": None})
-    assert draw_comparison([lone], tmp_path, [{"method": "none", "seed": 0}]) == ()
-    assert draw_sweep([{"method": "none", "seed": 0, "range": 1.0}], tmp_path, "range", "R") == ()
+    """Where nobody met and nothing was measured, or measured."""
+    lone = trace.model_copy(update={"additional_times": (), "estimates": {}})
+    assert draw_comparison([lone], tmp_path, found()) == ()
+    assert draw_sweep(found(), tmp_path, "R") == ()
 
 
 def test_a_sweep_has_its_figure(tmp_path: Path) -> None:
     """Named after what is varied."""
-    check(draw_sweep(ROWS, tmp_path, "range", "radio range R (m)"), {"sweep_range"})
+    check(draw_sweep(found(1.0, 1.5), tmp_path, "radio range R (m)"), {"sweep_range"})
 
 
 def test_the_same_run_is_drawn_the_same(trace: Trace, tmp_path: Path) -> None:

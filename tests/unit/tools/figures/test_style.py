@@ -14,6 +14,7 @@ from tlcomm_tools.figures.style import (
     method_line,
     new_figure,
     save,
+    show_large_numbers,
     styled,
 )
 
@@ -80,3 +81,13 @@ def test_matplotlibs_own_style_is_left_alone() -> None:
     with styled():
         assert mpl.rcParams["font.size"] == 8.0
     assert dict(mpl.rcParams) == before
+
+
+@pytest.mark.parametrize(("highest", "text"), [(9_000.0, "5000"), (90_000.0, "50k")])
+def test_large_numbers_are_short(highest: float, text: str) -> None:
+    """From ten thousand on."""
+    axes = new_figure(2.0, 1.0).add_subplot()
+    axes.set_ylim(0.0, highest)
+    show_large_numbers(axes.yaxis)
+    number = float(text.replace("k", "000"))
+    assert axes.yaxis.get_major_formatter().format_ticks([number]) == [text]

@@ -9,66 +9,82 @@ from typing import Final
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from tlcomm_tools.figures.elements import Profile
-from tlcomm_tools.figures.style import COLUMN_IN, method_line, new_figure
+from tlcomm_tools.figures.style import PAGE_IN, LineStyle, method_line, new_figure
 from tlcomm_tools.figures.trace import Trace
 
 __all__ = ["estimates_figure"]
 
-# More than there are dots across a column.
-_SAMPLES: Final = 1000
+# Of each window; what an estimate does in between lasts less than a second or two.
+_SAMPLES: Final = 60
 
 
 def estimates_figure(traces: Sequence[Trace]) -> Figure:
     """Draw the agents' estimates against ν(t), and below it by how much they are off.
 
-    A line is the mean over the agents that have an estimate; the band around it reaches from the
-    lowest to the highest.
+    Window by window, over all agents and times in it: the mean, the middle half, and the band from
+    the lowest estimate to the highest.
 
     Args:
-        traces: one for each method, all of the same field; at least one has a field.
+        traces: of each method one, all of the same field; those without estimates aren't drawn.
     """
-    figure = new_figure(COLUMN_IN, 4.0)
-    above, below = figure.subplots(2, 1, sharex=True)
-    field = next(own.field for own in traces if own.field is not None)
-    times_s = np.linspace(0.0, max(own.end_s for own in traces), _SAMPLES)
-    for trace in traces:
-        if trace.estimates:
-            _draw_method(above, below, trace, field, times_s)
-    above.plot(
-        times_s, field.at(times_s), color="black", linestyle=":", linewidth=1.6, label="true ν(t)"
-    )
-    below.axhline(0.0, color="black", linestyle=":", linewidth=1.6)
-    above.set_ylabel("estimate of ν (–)")
-    below.set_ylabel("deviation from ν (–)")
-    below.set_xlabel("time (s)")
-    below.set_xlim(0.0, times_s[-1])
-    figure.legend(loc="outside upper center", ncols=3)
+    shown = [trace for trace in traces if trace.estimates]
+    figure = new_figure(PAGE_IN, 3.0)
+    panels = figure.subplots(2, len(shown), sharex=True, sharey="row", squeeze=False)
+    for trace, above, below in zip(shown, *panels, strict=True):
+        assert trace.field is not None
+        _draw_method(above, below, trace, trace.field)
+        above.set_title(trace.method, fontsize=8.0)
+        below.set_xlabel("time (s)")
+        below.set_xlim(0.0, trace.end_s)
+        below.xaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
+    panels[0, 0].set_ylabel("estimate of ν (–)")
+    panels[1, 0].set_ylabel("deviation from ν (–)")
+    figure.align_ylabels()
+    _add_legend(figure, panels[0, 0])
     return figure
 
 
-def _draw_method(
-    above: Axes, below: Axes, trace: Trace, field: Profile, times_s: NDArray[np.float64]
-) -> None:
+def _draw_method(above: Axes, below: Axes, trace: Trace, field: Profile) -> None:
+    bounds_s = np.arange(0.0, trace.end_s, trace.period_s)
+    times_s = bounds_s[:, None] + trace.period_s * (np.arange(_SAMPLES) + 0.5) / _SAMPLES
+    truth = field.at(times_s)
     values = np.array([own.at(times_s) for own in trace.estimates.values()])
-    is_known = ~np.isnan(values).all(axis=0) & (times_s <= trace.end_s)
-    known_s, values = times_s[is_known], values[:, is_known]
+    values[:, times_s > trace.end_s] = np.nan
     line = method_line(trace.method)
-    for axes, truth in ((above, 0.0), (below, field.at(known_s))):
-        axes.fill_between(
-            known_s,
-            np.nanmin(values - truth, axis=0),
-            np.nanmax(values - truth, axis=0),
-            color=line.colour,
-            alpha=0.18,
-            linewidth=0.0,
-        )
-        axes.plot(
-            known_s,
-            np.nanmean(values - truth, axis=0),
-            color=line.colour,
-            linestyle=line.dashes,
-            label=trace.method if axes is above else None,
-        )
+    bounds_s = np.append(bounds_s, trace.end_s)
+    _draw_band(above, bounds_s, values, line)
+    _draw_band(below, bounds_s, values - truth, line)
+    knots_s = np.array(field.times_s)
+    above.plot(knots_s, field.at(knots_s), color="black", linestyle=":")
+    below.axhline(0.0, color="black", linestyle=":")
+
+
+def _draw_band(
+    axes: Axes, bounds_s: NDArray[np.float64], values: NDArray[np.float64], line: LineStyle
+) -> None:
+    """Draw what values [agents, windows, samples] are between, their middle half and mean."""
+    is_known = ~np.isnan(values).all(axis=(0, 2))
+    known = values[:, is_known]
+    low, lower, upper, high, mean = np.full((5, len(is_known)), np.nan)
+    quantiles = np.nanquantile(known, (0.0, 0.25, 0.75, 1.0), axis=(0, 2))
+    low[is_known], lower[is_known], upper[is_known], high[is_known] = quantiles
+    mean[is_known] = np.nanmean(known, axis=(0, 2))
+    axes.stairs(high, bounds_s, baseline=low, fill=True, color=line.colour, alpha=0.25)
+    axes.stairs(upper, bounds_s, baseline=lower, fill=True, color=line.colour, alpha=0.5)
+    axes.stairs(mean, bounds_s, baseline=None, color="black", linewidth=0.9)
+
+
+def _add_legend(figure: Figure, axes: Axes) -> None:
+    band, half, mean = axes.patches
+    (truth,) = axes.lines
+    handles = {
+        "true ν(t)": truth,
+        "mean": mean,
+        "middle half": half,
+        "lowest to highest": band,
+    }
+    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4)

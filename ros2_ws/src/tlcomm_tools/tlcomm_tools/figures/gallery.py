@@ -7,6 +7,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from matplotlib.figure import Figure
 
@@ -14,8 +15,8 @@ from tlcomm_tools.figures.additional_time import additional_time_figure
 from tlcomm_tools.figures.cost import cost_figure
 from tlcomm_tools.figures.estimates import estimates_figure
 from tlcomm_tools.figures.heat_map import heat_map_figure
+from tlcomm_tools.figures.measured import measured
 from tlcomm_tools.figures.metric_dots import metric_dots_figure
-from tlcomm_tools.figures.metric_values import Row, shown_metrics
 from tlcomm_tools.figures.schedule import schedule_figure
 from tlcomm_tools.figures.style import save, styled
 from tlcomm_tools.figures.sweep import sweep_figure
@@ -52,14 +53,14 @@ def draw_run(trace: Trace, folder: Path) -> tuple[Path, ...]:
 
 
 def draw_comparison(
-    traces: Sequence[Trace], folder: Path, rows: Sequence[Row] = ()
+    traces: Sequence[Trace], folder: Path, found: Mapping[str, Any] | None = None
 ) -> tuple[Path, ...]:
-    """Draw runs by several methods: additional time of each round, estimates, and the metrics.
+    """Draw runs by several methods: additional time of each round, estimates, and the measures.
 
     Args:
         traces: one for each method.
         folder: that exists.
-        rows: all runs by these methods, with their metrics; intervals are over the seeds.
+        found: the comparison's document, in which nothing is varied; ``None`` without measures.
 
     Returns:
         The files written.
@@ -67,36 +68,37 @@ def draw_comparison(
     Raises:
         OSError: a file can't be written.
     """
+    measures = () if found is None else measured(found)
     with styled():
         figures = {}
         if any(trace.additional_times for trace in traces):
             figures["additional_time"] = additional_time_figure(traces)
-        if any(trace.field is not None and trace.estimates for trace in traces):
+        if any(trace.estimates for trace in traces):
             figures["estimates"] = estimates_figure(traces)
-        if shown_metrics(rows):
-            figures["metrics"] = metric_dots_figure(rows)
+        if measures:
+            figures["metrics"] = metric_dots_figure(measures)
         return _written(figures, folder)
 
 
-def draw_sweep(rows: Sequence[Row], folder: Path, swept: str, label: str) -> tuple[Path, ...]:
-    """Draw the metrics against what is varied.
+def draw_sweep(found: Mapping[str, Any], folder: Path, label: str) -> tuple[Path, ...]:
+    """Draw the measures against what is varied.
 
     Args:
-        rows: all runs, with their metrics; intervals are over the seeds.
+        found: the comparison's document.
         folder: that exists.
-        swept: column of what is varied.
-        label: what it is called, with its unit.
+        label: of what is varied, with its unit.
 
     Returns:
-        The files written; none if no row has a metric.
+        The files written; none if nothing was measured.
 
     Raises:
         OSError: a file can't be written.
     """
+    measures = measured(found)
+    if not measures:
+        return ()
     with styled():
-        figures = (
-            {f"sweep_{swept}": sweep_figure(rows, swept, label)} if shown_metrics(rows) else {}
-        )
+        figures = {f"sweep_{found['sweep']['name']}": sweep_figure(measures, label)}
         return _written(figures, folder)
 
 

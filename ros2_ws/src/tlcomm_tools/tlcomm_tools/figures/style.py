@@ -8,6 +8,7 @@
 ``agent_labels``  short names of agents
 ``styled``      the style, while figures are made and saved
 ``new_figure``  an empty figure
+``show_large_numbers``  thousands and millions by their letters
 ``save``        a figure as SVG and PNG
 """
 
@@ -19,7 +20,9 @@ from pathlib import Path
 from typing import Any, Final
 
 from matplotlib import rc_context
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
+from matplotlib.ticker import EngFormatter
 
 __all__ = [
     "COLUMN_IN",
@@ -32,6 +35,7 @@ __all__ = [
     "method_line",
     "new_figure",
     "save",
+    "show_large_numbers",
     "styled",
 ]
 
@@ -41,6 +45,7 @@ OBSTACLE_GREY: Final = "#c8c8c8"
 GRID_GREY: Final = "#dddddd"
 
 _DOTS_PER_INCH: Final = 220
+_LARGE: Final = 10_000.0
 _RC: Final[dict[Any, Any]] = {
     "font.family": "DejaVu Sans",
     "font.size": 8.0,
@@ -137,6 +142,12 @@ def styled() -> Iterator[None]:
 def new_figure(width_in: float, height_in: float) -> Figure:
     """Return an empty figure that leaves each label the room that it needs, without a display."""
     return Figure(figsize=(width_in, height_in), layout="constrained")
+
+
+def show_large_numbers(axis: Axis) -> None:
+    """Write the numbers of an axis that reaches 10,000 in k and M; for when all is drawn."""
+    if max(map(abs, axis.get_view_interval())) >= _LARGE:
+        axis.set_major_formatter(EngFormatter(sep=""))
 
 
 def save(figure: Figure, folder: Path, name: str) -> tuple[Path, Path]:

@@ -1,4 +1,4 @@
-"""The main metrics against what is varied, for each method.
+"""The measures of several methods against what is varied.
 
 ``sweep_figure``  the figure
 """
@@ -7,78 +7,70 @@ import math
 from collections.abc import Sequence
 from typing import Final
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tlcomm_tools.figures.metric_values import (
-    MAIN_METRICS,
-    Row,
-    interval_of,
-    methods_of,
-    shown_metrics,
-)
-from tlcomm_tools.figures.style import PAGE_IN, method_line, new_figure
+from tlcomm_tools.figures.measured import Mark, Measured
+from tlcomm_tools.figures.style import PAGE_IN, method_line, new_figure, show_large_numbers
 
 __all__ = ["sweep_figure"]
 
 _COLUMNS: Final = 3
 
 
-def sweep_figure(rows: Sequence[Row], swept: str, label: str) -> Figure:
-    """Draw a panel for each metric: a line per method through its means, with 95 % intervals.
+def sweep_figure(measures: Sequence[Measured], label: str) -> Figure:
+    """Draw a panel for each measure: a line per method through its means, with 95 % intervals.
 
     Args:
-        rows: a run each; at least one has a metric.
-        swept: column of what is varied.
-        label: of its axis, with the unit.
+        measures: at least one, of runs in which something is varied.
+        label: of what is varied, with its unit.
     """
-    metrics = shown_metrics(rows)
-    lines = math.ceil(len(metrics) / _COLUMNS)
-    figure = new_figure(PAGE_IN, 0.35 + 1.65 * lines)
-    panels = figure.subplots(lines, _COLUMNS, sharex=True, squeeze=False)
-    for axes, metric in zip(panels.flat, metrics, strict=False):
-        for method in methods_of(rows):
-            own = [row for row in rows if row["method"] == method]
-            _draw_method(axes, own, metric, swept)
-        axes.set_ylabel(MAIN_METRICS[metric])
-        axes.grid(visible=True, axis="y")
-    for axes in panels.flat[len(metrics) :]:
+    lines = math.ceil(len(measures) / _COLUMNS)
+    figure = new_figure(PAGE_IN, 0.5 + 1.6 * lines)
+    panels = figure.subplots(lines, _COLUMNS, sharex=True, squeeze=False).flat
+    for axes, measure in zip(panels, measures, strict=False):
+        _draw_measure(axes, measure)
+    for axes in figure.axes[len(measures) :]:
         axes.set_axis_off()
-    figure.align_ylabels()
+    # What is lowest in its column, also above an empty place.
+    for axes in figure.axes[max(len(measures) - _COLUMNS, 0) : len(measures)]:
+        axes.tick_params(axis="x", labelbottom=True)
     figure.supxlabel(label, fontsize=8.0)
-    _add_legend(figure)
+    _add_legend(figure, tuple(measures[0].marks))
     return figure
 
 
-def _add_legend(figure: Figure) -> None:
-    """Name each line once, whichever panels it is in."""
-    named = [
-        pair for axes in figure.axes for pair in zip(*axes.get_legend_handles_labels(), strict=True)
-    ]
-    handles = {name: handle for handle, name in named}
-    figure.legend(handles=list(handles.values()), loc="outside upper center", ncols=len(handles))
+def _draw_measure(axes: Axes, measure: Measured) -> None:
+    for method, marks in measure.marks.items():
+        if marks:
+            _draw_method(axes, method, marks)
+    # Above the axis, where it has room to be read.
+    axes.set_title(measure.label, loc="left", fontsize=8.0)
+    show_large_numbers(axes.yaxis)
+    axes.grid(visible=True, axis="y")
 
 
-def _draw_method(axes: Axes, rows: Sequence[Row], metric: str, swept: str) -> None:
-    values = sorted({value for row in rows if isinstance(value := row[swept], int | float)})
-    points = [
-        (value, interval_of([row for row in rows if row[swept] == value], metric))
-        for value in values
-    ]
-    found = [(value, interval) for value, interval in points if interval is not None]
-    if not found:
-        return
-    line = method_line(str(rows[0]["method"]))
+def _draw_method(axes: Axes, method: str, marks: Sequence[Mark]) -> None:
+    line = method_line(method)
     axes.errorbar(
-        [value for value, _ in found],
-        [interval.mean for _, interval in found],
-        yerr=[
-            [interval.mean - interval.low for _, interval in found],
-            [interval.high - interval.mean for _, interval in found],
-        ],
+        np.array([mark.value for mark in marks], dtype=np.float64),
+        [mark.mean for mark in marks],
+        yerr=[[mark.below for mark in marks], [mark.above for mark in marks]],
         color=line.colour,
         linestyle=line.dashes,
         marker=line.marker,
         capsize=2.0,
-        label=str(rows[0]["method"]),
+        label=method,
     )
+
+
+def _add_legend(figure: Figure, methods: Sequence[str]) -> None:
+    """Name each line once, whichever panels it is in."""
+    found = {
+        name: handle
+        for axes in figure.axes
+        for handle, name in zip(*axes.get_legend_handles_labels(), strict=True)
+    }
+    handles = [found[method] for method in methods if method in found]
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
