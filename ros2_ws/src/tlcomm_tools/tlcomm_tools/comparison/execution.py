@@ -16,13 +16,16 @@ from tlcomm_tools.comparison.workers import outcomes
 __all__ = ["run_missing"]
 
 
-def run_missing(jobs: Sequence[Job], archive: Archive, workers: Executor | None) -> dict[Job, str]:
+def run_missing(
+    jobs: Sequence[Job], archive: Archive, workers: Executor | None, act: Callable[[], None]
+) -> dict[Job, str]:
     """Run what isn't done yet, those that take longest first, so that nobody waits for the last.
 
     Args:
         jobs: all of them.
         archive: where they are kept.
         workers: who does them; ``None`` for ROS processes, a team at a time.
+        act: called now and then; acts upon an interruption.
 
     Returns:
         Of each job that failed, why.
@@ -35,7 +38,12 @@ def run_missing(jobs: Sequence[Job], archive: Archive, workers: Executor | None)
     done = len(jobs) - len(missing)
     try:
         with JobProgress(len(jobs), done) as progress:
-            for job, error in _done(missing, archive, workers, progress.show):
+
+            def on_wait() -> None:
+                act()
+                progress.show()
+
+            for job, error in _done(missing, archive, workers, on_wait):
                 progress.count()
                 if error is None:
                     done += 1

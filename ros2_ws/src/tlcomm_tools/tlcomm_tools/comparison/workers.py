@@ -7,6 +7,7 @@
 import multiprocessing
 import os
 import signal
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -33,18 +34,30 @@ def local_workers(count: int | None = None) -> Iterator[Executor]:
     """
     cores = len(os.sched_getaffinity(0))
     context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(cores if count is None else count, mp_context=context)
+    pool = ProcessPoolExecutor(
+        cores if count is None else count, mp_context=context, initializer=_end_with_parent
+    )
     try:
         yield pool
     except BaseException:
-        # An impatient second Ctrl-C waits until nothing is left behind.
-        with _interrupts_held():
-            pool.shutdown(wait=False, cancel_futures=True)
-            for process in multiprocessing.active_children():
-                process.terminate()
-            pool.shutdown()
+        pool.shutdown(wait=False, cancel_futures=True)
+        for process in multiprocessing.active_children():
+            process.terminate()
         raise
-    pool.shutdown()
+    finally:
+        pool.shutdown()
+
+
+def _end_with_parent() -> None:
+    """Let this process end when the one that started it does, however that ends."""
+
+    def watch() -> None:
+        parent = multiprocessing.parent_process()
+        assert parent is not None, "a worker is a child"
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 def outcomes(
@@ -56,6 +69,9 @@ def outcomes(
         workers: who does them.
         jobs: in the order in which they are begun.
         on_wait: called now and then in between.
+
+    Raises:
+        KeyboardInterrupt: if ``on_wait`` does.
     """
     with _sheltered():
         pending = {workers.submit(execute, job): job for job in jobs}
@@ -87,22 +103,13 @@ def _sheltered() -> Iterator[None]:
     """
     before = {name: os.environ.get(name) for name in _SINGLE_THREAD}
     os.environ.update(_SINGLE_THREAD)
-    try:
-        with _interrupts_held():
-            yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
-
-
-@contextmanager
-def _interrupts_held() -> Iterator[None]:
-    """Let a Ctrl-C that comes meanwhile be acted upon afterwards."""
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value

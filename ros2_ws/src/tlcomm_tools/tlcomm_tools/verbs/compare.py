@@ -21,6 +21,7 @@ from tlcomm_tools.comparison.cluster import remote_workers
 from tlcomm_tools.comparison.design import Design, jobs_of
 from tlcomm_tools.comparison.execution import run_missing
 from tlcomm_tools.comparison.findings import Row, csv_text, document
+from tlcomm_tools.comparison.interruption import held_interruption
 from tlcomm_tools.comparison.report import format_findings, markdown
 from tlcomm_tools.comparison.sweep import QUANTITIES, Sweep, parse_sweep
 from tlcomm_tools.comparison.workers import local_workers
@@ -113,9 +114,9 @@ def run(options: Namespace) -> Status:
         with_processes=options.processes,
     )
     jobs = jobs_of(design)
-    with _workers(options) as workers:
+    with held_interruption() as act, _workers(options) as workers:
         archive = Archive.open(scenario.name, options.out, design.terms())
-        failed = run_missing(jobs, archive, workers)
+        failed = run_missing(jobs, archive, workers, act)
     rows = [
         Row(job, None, failed[job]) if job in failed else Row(job, archive.result(job), None)
         for job in jobs
