@@ -16,9 +16,9 @@ from typing import Any, assert_never
 from tlcomm_core.errors import InputError
 from tlcomm_core.game.solver import Solver
 from tlcomm_core.method import Method
-from tlcomm_core.metrics import RunFacts, result_document
 from tlcomm_core.pace import Pace
 from tlcomm_core.records import RunRecords
+from tlcomm_core.result import RunFacts, result_document
 from tlcomm_core.scenario.loader import dumps
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import seconds
