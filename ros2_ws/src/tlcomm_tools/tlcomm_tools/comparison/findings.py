@@ -1,9 +1,10 @@
 """What a comparison found: a row per run, and means and differences of methods with intervals.
 
-``Row``        a run's outcome
-``document``   all of it, as in ``comparison.json``
-``csv_text``   its rows, as in ``comparison.csv``
-``FORMAT``     the document's ``format``
+``Row``         a run's outcome
+``document``    all of it, as in ``comparison.json``
+``table_rows``  its runs as rows of a table
+``csv_text``    the same as in ``comparison.csv``
+``FORMAT``      the document's ``format``
 """
 
 import csv
@@ -18,7 +19,7 @@ from tlcomm_tools.comparison.design import Design
 from tlcomm_tools.comparison.job import Job
 from tlcomm_tools.comparison.measures import MEASURES, figures_of
 
-__all__ = ["FORMAT", "Row", "csv_text", "document"]
+__all__ = ["FORMAT", "Row", "csv_text", "document", "table_rows"]
 
 FORMAT: Final = "tlcomm-compare/1"
 
@@ -74,22 +75,38 @@ def document(design: Design, rows: Sequence[Row]) -> dict[str, Any]:
         "seeds": design.seeds,
         "confidence": CONFIDENCE,
         "sweep": None if sweep is None else {"name": sweep.name, "values": list(sweep.values)},
-        "measures": {key: asdict(measure) for key, measure in MEASURES.items()},
         "runs": [_run(row) for row in rows],
         "points": [_point(value, own) for value, own in _by_value(rows)],
     }
 
 
+def table_rows(found: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return a document's runs as rows of equal columns, ``None`` where there is nothing.
+
+    A sweep's rows begin with the column of what is varied, called like it.
+    """
+    swept = found["sweep"] and found["sweep"]["name"]
+    return [
+        {
+            **({swept: run["value"]} if swept else {}),
+            "method": run["method"],
+            "seed": run["seed"],
+            "folder": run["folder"],
+            "error": run["error"],
+            "verdict": "; ".join(run["verdict"]) or None,
+            **run["measures"],
+        }
+        for run in found["runs"]
+    ]
+
+
 def csv_text(found: Mapping[str, Any]) -> str:
-    """Return a document's runs as CSV; nothing stands for what isn't available."""
-    fixed = ["sweep", "value", "method", "seed", "folder", "error", "verdict"]
+    """Return a document's rows as CSV; nothing stands for what isn't available."""
+    rows = table_rows(found)
     text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*fixed, *found["measures"]])
-    name = found["sweep"]["name"] if found["sweep"] else None
-    for run in found["runs"]:
-        own = {**run, "sweep": name, "verdict": "; ".join(run["verdict"])}
-        writer.writerow([own[key] for key in fixed] + list(run["measures"].values()))
+    writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
     return text.getvalue()
 
 

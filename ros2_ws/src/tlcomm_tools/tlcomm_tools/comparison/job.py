@@ -14,8 +14,8 @@ from typing import Final
 from tlcomm_core.errors import TlcommError
 from tlcomm_core.game.solver import SOLVERS
 from tlcomm_core.method import Method
-from tlcomm_core.metrics import RunFacts, result_document
 from tlcomm_core.mission import Mission
+from tlcomm_core.result import RunFacts, result_document
 from tlcomm_core.scenario.loader import loads
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate

@@ -4,6 +4,7 @@
 ``DEFAULT_NOISE``  what speeds are off by, where the scenario doesn't say
 """
 
+import math
 from typing import Final
 
 import numpy as np
@@ -11,7 +12,8 @@ from numpy.typing import NDArray
 
 from tlcomm_core.agent.avoidance import avoided_regions
 from tlcomm_core.scenario.loader import verify
-from tlcomm_core.scenario.model import Agent, Noise, Scenario
+from tlcomm_core.scenario.measurements import stations_of
+from tlcomm_core.scenario.model import Agent, MeasuredField, Noise, Scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.scenario.task import hard_formula
 from tlcomm_core.workspace.atlas import Atlas
@@ -34,7 +36,9 @@ def perturbed(scenario: Scenario, seed: int) -> Scenario:
     Seed 0 is the scenario as given. In any other, each agent starts in a free cell drawn from those
     within three cells of its own, turned to a drawn lattice heading: nobody starts where another
     does, in a region in which it didn't, or where its task forbids it to be, and the team stays
-    connected. Speeds are off as the scenario's ``noise`` says, or by ``DEFAULT_NOISE``.
+    connected. Speeds are off as the scenario's ``noise`` says, or by ``DEFAULT_NOISE``. The drifts
+    of the field's stations are all ahead by the same drawn angle, so that how they differ from each
+    other stays as given.
 
     Args:
         scenario: that passed its checks.
@@ -50,7 +54,16 @@ def perturbed(scenario: Scenario, seed: int) -> Scenario:
     rng = np.random.default_rng(seed)
     agents = _moved(scenario, rng)
     noise = scenario.noise if scenario.noise != Noise() else DEFAULT_NOISE
-    return verify(scenario.model_copy(update={"agents": agents, "noise": noise}))
+    field = None if scenario.field is None else _shifted(scenario, scenario.field, rng)
+    return verify(scenario.model_copy(update={"agents": agents, "noise": noise, "field": field}))
+
+
+def _shifted(scenario: Scenario, field: MeasuredField, rng: np.random.Generator) -> MeasuredField:
+    """Return the field with its stations' drifts ahead."""
+    shift_rad = float(rng.uniform(0.0, math.tau))
+    phases_rad = {name: phase + shift_rad for name, phase in stations_of(scenario).items()}
+    drift = field.drift.model_copy(update={"phases_rad": phases_rad})
+    return field.model_copy(update={"drift": drift})
 
 
 def _moved(scenario: Scenario, rng: np.random.Generator) -> dict[str, Agent]:

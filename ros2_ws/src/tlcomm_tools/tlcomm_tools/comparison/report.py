@@ -7,12 +7,14 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, Final
 
+from tlcomm_tools.comparison.measures import SHOWN, Measure
 from tlcomm_tools.comparison.sweep import QUANTITIES, shown
-from tlcomm_tools.table import format_number, format_table
+from tlcomm_tools.table import format_table
 
 __all__ = ["format_findings", "markdown"]
 
 _SHOWN_FLAWS: Final = 12
+_MISSING: Final = "–"
 
 Table = Callable[[Sequence[str], Sequence[Sequence[str]]], str]
 
@@ -45,45 +47,45 @@ def _title(found: Mapping[str, Any]) -> str:
 
 def _sections(found: Mapping[str, Any], table: Table, line: str) -> Iterator[str]:
     """Yield a heading and two tables at each point; where there is nothing to show, none."""
-    measures: Mapping[str, Mapping[str, Any]] = found["measures"]
     for point in found["points"]:
         if point["value"] is not None:
             yield f"{QUANTITIES[found['sweep']['name']].label}: {shown(point['value'])}"
-        yield table(*_cells("mean", point["means"], measures))
+        yield table(*_cells("mean", point["means"]))
         if point["differences"]:
-            yield table(*_cells("team less", point["differences"], measures))
+            yield table(*_cells("team less", point["differences"]))
     if found["seeds"] > 1:
         confidence = f"{found['confidence']:.0%}"
         yield line.format(f"Beneath each mean: its {confidence} interval, by bootstrap over seeds.")
 
 
 def _cells(
-    corner: str,
-    columns: Mapping[str, Mapping[str, Any]],
-    measures: Mapping[str, Mapping[str, Any]],
+    corner: str, columns: Mapping[str, Mapping[str, Any]]
 ) -> tuple[list[str], list[list[str]]]:
     """Return header and rows: two rows a measure, means and beneath them their intervals."""
     rows = []
-    for key, measure in measures.items():
+    for key, measure in SHOWN.items():
         estimates = [own[key] for own in columns.values()]
         if not any(estimates):
             continue
-        digits = measure["digits"]
-        rows.append([measure["label"], *(_mean(own, digits) for own in estimates)])
-        intervals = [_interval(own, digits) for own in estimates]
+        rows.append([measure.label, *(_mean(own, measure) for own in estimates)])
+        intervals = [_interval(own, measure) for own in estimates]
         if any(intervals):
             rows.append(["", *intervals])
     return [corner, *columns], rows
 
 
-def _mean(estimate: Mapping[str, Any] | None, digits: int) -> str:
-    return format_number(None if estimate is None else estimate["mean"], digits)
+def _mean(estimate: Mapping[str, Any] | None, measure: Measure) -> str:
+    return _MISSING if estimate is None else _number(estimate["mean"], measure)
 
 
-def _interval(estimate: Mapping[str, Any] | None, digits: int) -> str:
+def _interval(estimate: Mapping[str, Any] | None, measure: Measure) -> str:
     if estimate is None or estimate["low"] is None:
         return ""
-    return f"{estimate['low']:.{digits}f}…{estimate['high']:.{digits}f}"
+    return "…".join(_number(estimate[end], measure) for end in ("low", "high"))
+
+
+def _number(value: float, measure: Measure) -> str:
+    return f"{value / measure.per:z.{measure.digits}f}"
 
 
 def _flaws(found: Mapping[str, Any], bullet: str) -> Iterator[str]:
