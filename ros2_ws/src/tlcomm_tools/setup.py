@@ -20,6 +20,7 @@ setup(
     python_requires=">=3.11",
     install_requires=[
         "lz4",
+        "matplotlib",
         "numpy",
         "pyyaml",
         "rosbags",
