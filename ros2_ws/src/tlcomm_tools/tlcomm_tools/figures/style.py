@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from matplotlib import rc_context
+from matplotlib import rc_context, rcdefaults, rcParams
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import EngFormatter
@@ -134,8 +134,13 @@ def agent_labels(agents: Sequence[str]) -> dict[str, str]:
 
 @contextmanager
 def styled() -> Iterator[None]:
-    """Let figures that are made and saved inside have this style; matplotlib's own is untouched."""
-    with rc_context(_RC):
+    """Let figures that are made and saved inside have this style, whatever the user's is.
+
+    Outside, it is as it was.
+    """
+    with rc_context():
+        rcdefaults()
+        rcParams.update(_RC)
         yield
 
 
@@ -157,6 +162,9 @@ def save(figure: Figure, folder: Path, name: str) -> tuple[Path, Path]:
         OSError: a file can't be written.
     """
     vector, raster = folder / f"{name}.svg", folder / f"{name}.png"
+    # Finding out what room labels need takes most of the time, and is the same for both.
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
     figure.savefig(vector, metadata={"Date": None})
     figure.savefig(raster, metadata={"Software": None})
     return vector, raster
