@@ -9,6 +9,7 @@ import pytest
 from support.gate import gate
 from support.hall import hall
 from tlcomm_core.game.solver import BEST_RESPONSE, DEFAULT, Solver
+from tlcomm_core.method import Method
 from tlcomm_core.metrics.lost_time import LostTime, lost_time
 from tlcomm_core.metrics.meeting import meetings
 from tlcomm_core.mission import Mission
@@ -25,7 +26,7 @@ SLACK_S = 1e-5
 
 
 def records_of(scenario: Scenario, rounds: int, solver: Solver = DEFAULT) -> RunRecords:
-    """Return the records of a run."""
+    """Return the records of a run with meetings."""
     return simulate(Mission(Site.from_scenario(scenario), 1, rounds, None, solver)).records
 
 
@@ -43,7 +44,7 @@ def summed_s(name: str, lost: LostTime, scenario: Scenario, records: RunRecords)
     duration_s = scenario.communication.duration_s
     costs_s = {duration_s: duration_s}
     for meeting in meetings(scenario, records):
-        if meeting.starts_s is not None and meeting.additional_s is not None:
+        if meeting.starts_s is not None:
             costs_s[meeting.starts_s + duration_s] = meeting.additional_s[name] + duration_s
     for finished_s in lost.finished_s:
         yield sum(cost_s for over_s, cost_s in costs_s.items() if over_s <= finished_s)
@@ -72,6 +73,17 @@ def test_what_is_lost_is_detour_wait_and_duration(
         assert lost.lost_s == pytest.approx(
             list(summed_s(name, lost, scenario, records)), abs=SLACK_S
         )
+
+
+@pytest.mark.parametrize("name", ["corridor", "plant"])
+def test_alone_nothing_is_lost(name: str) -> None:
+    """Without meetings each step takes what it takes alone, but for rounding."""
+    scenario = load_scenario(SCENARIOS / f"{name}.yaml")
+    site = Site.from_scenario(scenario)
+    alone = Mission(site, 1, None, 300.0, BEST_RESPONSE, Method.NONE)
+    found = lost_time(scenario, simulate(alone).records)
+    assert found.keys() == scenario.agents.keys()
+    assert {lost_s for lost in found.values() for lost_s in lost.lost_s} == {0.0}
 
 
 def test_noise_adds_little_and_is_lost() -> None:

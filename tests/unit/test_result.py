@@ -14,11 +14,14 @@ from support.hand_made_run import (
     task,
 )
 from tlcomm_core.agent.actions import TaskEventKind
+from tlcomm_core.method import Method
+from tlcomm_core.metrics.run import run_metrics
 from tlcomm_core.records import RunRecords
 from tlcomm_core.result import RunFacts, result_document
+from tlcomm_core.units import nanoseconds
 from tlcomm_core.world.observation import Connectivity
 
-FACTS = RunFacts("team", "best-response", 3, "lockstep", END_S, 5.0)
+FACTS = RunFacts(Method.TEAM, "best-response", 3, "lockstep", END_S, 5.0)
 
 
 def document(records: RunRecords, facts: RunFacts = FACTS) -> dict:
@@ -181,3 +184,29 @@ def test_no_records_at_all_are_a_document() -> None:
     assert result["verdict"] == ["sim: died"]
     assert result["agents"]["east"]["messages_sent"] is None
     assert json.loads(json.dumps(result, allow_nan=False)) == result
+
+
+def test_the_metrics_are_in_the_document() -> None:
+    """All of them, as ``metrics.run`` gives them; the agents' figures are among them."""
+    records = hand_made_records()
+    result = document(records)
+    end_ns = nanoseconds(END_S)
+    assert (
+        result["metrics"]
+        == run_metrics(hand_made_scenario(), records, Method.TEAM, end_ns).document()
+    )
+    assert (
+        result["metrics"]["agents"]["west"]["distance_m"] == result["agents"]["west"]["distance_m"]
+    )
+
+
+def test_turns_are_no_rounds() -> None:
+    """A method without meetings has no rounds, but windows."""
+    result = document(hand_made_records(), replace(FACTS, method=Method.ALL_TIME))
+    assert result["rounds"] == []
+    assert result["communication"]["satisfied"] == 3
+
+
+def test_a_round_counts_once_it_has_begun() -> None:
+    """All were there at 8 s, but the run was over before the window opened."""
+    assert document(hand_made_records(), replace(FACTS, sim_s=9.0))["rounds"] == []

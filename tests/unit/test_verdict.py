@@ -4,12 +4,13 @@ from dataclasses import replace
 
 from support.hand_made_run import END_S, hand_made_records, hand_made_scenario, task
 from tlcomm_core.agent.actions import TaskEventKind
-from tlcomm_core.records import RunRecords
+from tlcomm_core.method import Method
+from tlcomm_core.records import RunRecords, StrategyRecord
 from tlcomm_core.result import RunFacts, result_document
-from tlcomm_core.verdict import patience_s
+from tlcomm_core.verdict import failures, patience_s
 from tlcomm_core.world.observation import Connectivity
 
-FACTS = RunFacts("team", "best-response", 3, "lockstep", END_S, 5.0)
+FACTS = RunFacts(Method.TEAM, "best-response", 3, "lockstep", END_S, 5.0)
 
 
 def document(records: RunRecords, facts: RunFacts = FACTS) -> dict:
@@ -92,3 +93,31 @@ def test_what_agents_cope_with_is_no_failure() -> None:
 
     assert complaints(30.0 + period_s) == []
     assert len(complaints(31.0 + period_s)) == 1
+
+
+def test_a_window_that_nobody_promised_may_be_missed() -> None:
+    """By methods without meetings of the team; the others are to keep it."""
+    records = hand_made_records()
+    records.connectivity = [Connectivity(0, (), connected=False)]
+    wrong = {
+        method: document(records, replace(FACTS, method=method))["verdict"]
+        for method in (Method.STATIC, Method.NONE)
+    }
+    assert len([line for line in wrong[Method.STATIC] if "missed" in line]) == 2
+    assert wrong[Method.NONE] == "ok"
+
+
+def test_pairs_agree_on_their_own_meetings() -> None:
+    """Two pairs have different strategies for one window; within a pair both hold the same."""
+    scenario = hand_made_scenario()
+    first = hand_made_records().strategies[0].strategy
+    strategies = tuple(replace(first.strategies[0], agent=name) for name in "abcd")
+    one, two = (replace(first, strategies=own) for own in (strategies[:2], strategies[2:]))
+    later = replace(one, round=2)
+    held = [("a", one), ("b", one), ("c", two), ("a", later), ("b", later)]
+    records = RunRecords(strategies=[StrategyRecord(1, name, own) for name, own in held])
+    assert failures(scenario, records, Method.PAIRWISE, (), 0) == ["round 1 of c, d: not held by d"]
+    records.strategies.append(StrategyRecord(2, "d", replace(two, iteration=7)))
+    assert failures(scenario, records, Method.PAIRWISE, (), 0) == [
+        "round 1 of c, d: agents hold different strategies"
+    ]

@@ -29,6 +29,7 @@ setup(
         "tlcomm_sim",
         "zstandard",
     ],
+    extras_require={"dask": ["distributed"]},
     entry_points={"console_scripts": ["tlcomm = tlcomm_tools.cli:main"]},
     zip_safe=False,
 )

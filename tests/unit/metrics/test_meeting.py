@@ -24,6 +24,7 @@ def test_additional_time_is_detour_and_wait() -> None:
     assert meeting.detour_s == {"a": 1.0, "b": 2.5, "c": 0.0}
     assert meeting.wait_s == {"a": 8.0, "b": 0.0, "c": 2.5}
     assert meeting.additional_s == {"a": 9.0, "b": 2.5, "c": 2.5}
+    assert [meeting.took_place_by(end_s) for end_s in (62.9, 63.0)] == [False, True]
 
 
 def test_a_team_that_is_early_waits_for_its_window() -> None:
@@ -36,7 +37,8 @@ def test_a_team_that_is_early_waits_for_its_window() -> None:
 def test_without_all_members_there_is_no_meeting() -> None:
     """Who was there waited, but for nothing that took place."""
     meeting = Meeting(agreed(1, a=1.0, b=1.0), 60.0, {"a": 55.0})
-    assert (meeting.starts_s, meeting.wait_s, meeting.additional_s) == (None, None, None)
+    assert (meeting.starts_s, meeting.wait_s, meeting.additional_s) == (None, {}, {})
+    assert not meeting.took_place_by(1000.0)
 
 
 def test_meetings_of_the_hand_made_run() -> None:
@@ -68,7 +70,7 @@ def test_pairs_that_meet_in_one_window_are_two_meetings() -> None:
     )
     pairs = meetings(hand_made_scenario(), records)
     assert [own.members for own in pairs] == [("a", "b"), ("c", "d")]
-    assert [own.additional_s for own in pairs] == [{"a": 1.0, "b": 1.0}, None]
+    assert [own.additional_s for own in pairs] == [{"a": 1.0, "b": 1.0}, {}]
 
 
 def test_the_last_arrival_counts() -> None:

@@ -7,22 +7,26 @@
 What its figures mean is defined in ``metrics``.
 """
 
-from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
 from tlcomm_core.agent.timing import RoundTiming
-from tlcomm_core.metrics.connection import connected_intervals
-from tlcomm_core.metrics.coordination import coordination_wall_s, solve_wall_s
-from tlcomm_core.metrics.distance import distance_m
+from tlcomm_core.method import Method
+from tlcomm_core.metrics.connection import windows_of
+from tlcomm_core.metrics.coordination import (
+    coordination_wall_s,
+    indexed,
+    solve_wall_s,
+    timings_of,
+)
 from tlcomm_core.metrics.meeting import Meeting, meetings
-from tlcomm_core.metrics.satisfaction import makespan_s, satisfied_ns
+from tlcomm_core.metrics.run import run_metrics
+from tlcomm_core.metrics.summary import AgentMetrics
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.verdict import failures
-from tlcomm_core.windows import judge_windows
 
 __all__ = ["RESULT_FORMAT", "RunFacts", "result_document"]
 
@@ -43,7 +47,7 @@ class RunFacts:
         failures: what broke the run, for the verdict.
     """
 
-    method: str
+    method: Method
     solver: str
     seed: int
     pace: str | float
@@ -64,13 +68,9 @@ def result_document(scenario: Scenario, records: RunRecords, facts: RunFacts) ->
         facts: the rest.
     """
     end_ns = nanoseconds(facts.sim_s)
-    timing = scenario.communication
-    windows = judge_windows(
-        connected_intervals(records.connectivity, end_ns),
-        timing.period_s,
-        timing.duration_s,
-        end_ns,
-    )
+    windows = windows_of(scenario, records, end_ns)
+    wrong = [*facts.failures, *failures(scenario, records, facts.method, windows, end_ns)]
+    metrics = run_metrics(scenario, records, facts.method, end_ns)
     wall_s = facts.wall_s
     return {
         "format": RESULT_FORMAT,
@@ -82,31 +82,28 @@ def result_document(scenario: Scenario, records: RunRecords, facts: RunFacts) ->
         "sim_s": facts.sim_s,
         "wall_s": wall_s,
         "realtime_factor": facts.sim_s / wall_s if wall_s else None,
-        "rounds": _rounds(scenario, records, end_ns),
+        "rounds": _rounds(scenario, records, facts),
         "communication": {
             "windows": len(windows),
             "satisfied": sum(window.satisfied for window in windows),
             "missed": sum(not window.satisfied for window in windows),
             "missed_rounds": [window.round for window in windows if not window.satisfied],
         },
-        "agents": {name: _agent(name, records) for name in scenario.agents},
-        "verdict": [*facts.failures, *failures(scenario, records, windows, end_ns)] or "ok",
+        "agents": {name: _agent(name, records, own) for name, own in metrics.agents.items()},
+        "metrics": metrics.document(),
+        "verdict": wrong or "ok",
     }
 
 
-def _rounds(scenario: Scenario, records: RunRecords, end_ns: int) -> list[dict[str, Any]]:
-    timings: dict[int, list[RoundTiming]] = defaultdict(list)
-    for timing in records.timings:
-        timings[timing.round].append(timing)
-    period_s = scenario.communication.period_s
+def _rounds(scenario: Scenario, records: RunRecords, facts: RunFacts) -> list[dict[str, Any]]:
+    if not facts.method.has_meetings:
+        return []
+    timings = indexed(records.timings)
+    period_s, end_s = scenario.communication.period_s, facts.sim_s
     return [
-        _round(
-            meeting,
-            period_s,
-            [timing for timing in timings[meeting.round] if timing.agent in meeting.members],
-        )
+        _round(meeting, period_s, timings_of(meeting, timings))
         for meeting in meetings(scenario, records)
-        if meeting.starts_s is not None or nanoseconds(meeting.opens_s + period_s) <= end_ns
+        if meeting.took_place_by(end_s) or meeting.opens_s + period_s <= end_s
     ]
 
 
@@ -131,14 +128,13 @@ def _round(meeting: Meeting, period_s: float, timings: Sequence[RoundTiming]) ->
     }
 
 
-def _agent(name: str, records: RunRecords) -> dict[str, Any]:
-    moments_ns = satisfied_ns(name, records)
+def _agent(name: str, records: RunRecords, metrics: AgentMetrics) -> dict[str, Any]:
     return {
-        "tasks_satisfied": len(moments_ns),
-        "makespan_s": makespan_s(moments_ns),
-        "distance_m": distance_m(name, records),
-        "messages_sent": records.messages_sent.get(name),
-        "bytes_sent": records.bytes_sent.get(name),
+        "tasks_satisfied": metrics.tasks_satisfied,
+        "makespan_s": metrics.makespan_s,
+        "distance_m": metrics.distance_m,
+        "messages_sent": metrics.messages,
+        "bytes_sent": metrics.bytes,
         "messages_undelivered": _undelivered(name, records),
     }
 

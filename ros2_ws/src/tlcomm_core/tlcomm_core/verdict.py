@@ -6,12 +6,13 @@
 
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Final
 
 from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.game.strategy import TeamStrategy
+from tlcomm_core.method import Method
 from tlcomm_core.metrics.satisfaction import satisfied_ns
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
@@ -23,21 +24,32 @@ __all__ = ["failures", "patience_s"]
 
 _SPARE_WINDOWS: Final = 2
 
+# A round, and who is to meet in it, sorted.
+_Meeting = tuple[int, tuple[str, ...]]
+
 
 def failures(
-    scenario: Scenario, records: RunRecords, windows: Sequence[Window], end_ns: int
+    scenario: Scenario,
+    records: RunRecords,
+    method: Method,
+    windows: Sequence[Window],
+    end_ns: int,
 ) -> list[str]:
-    """Return what is wrong with a run: missed windows, starving tasks, disagreements, faults.
+    """Return what is wrong with a run: starving tasks, disagreements, faults, missed windows.
+
+    A missed window is wrong if the method promises to keep it.
 
     Args:
         scenario: what was run.
         records: what happened, each list in order of time.
+        method: of coordination.
         windows: the outcomes of its windows.
         end_ns: when it ended.
     """
     duration_s = scenario.communication.duration_s
+    missed = [window for window in windows if method.keeps_windows and not window.satisfied]
     return [
-        *(_missed(window, duration_s) for window in windows if not window.satisfied),
+        *(_missed(window, duration_s) for window in missed),
         *_unsatisfied(scenario, records, end_ns),
         *_disagreements(scenario, records),
         *_faults(records),
@@ -94,24 +106,24 @@ def _unsatisfied(scenario: Scenario, records: RunRecords, end_ns: int) -> Iterat
 
 
 def _disagreements(scenario: Scenario, records: RunRecords) -> Iterator[str]:
-    """Say which rounds not all agents hold the same strategy of; a last one may be incomplete.
+    """Say which meetings not all members hold the same strategy of; a last one may be incomplete.
 
     Who reported that it lacks the others' confirmations does as all do, and holds nothing.
     """
     reported = {(r.event.round + 1, r.agent) for r in records.tasks if r.event.is_disagreement}
-    held: dict[int, dict[str, set[TeamStrategy]]] = defaultdict(lambda: defaultdict(set))
+    held: dict[_Meeting, dict[str, set[TeamStrategy]]] = defaultdict(lambda: defaultdict(set))
     for record in records.strategies:
-        held[record.strategy.round][record.agent].add(record.strategy)
-    for number, by_agent in sorted(held.items()):
+        held[record.strategy.round, record.strategy.members][record.agent].add(record.strategy)
+    last = max((number for number, _ in held), default=0)
+    for (number, members), by_agent in sorted(held.items(), key=lambda item: item[0]):
+        is_whole = frozenset(members) == scenario.agents.keys()
+        meeting = f"round {number}" if is_whole else f"round {number} of {', '.join(members)}"
         if len(set[TeamStrategy]().union(*by_agent.values())) > 1:
-            yield f"round {number}: agents hold different strategies"
-        missing = _names(
-            name
-            for name in scenario.agents
-            if name not in by_agent and (number, name) not in reported
-        )
-        if missing and number < max(held):
-            yield f"round {number}: not held by {missing}"
+            yield f"{meeting}: agents hold different strategies"
+        lacking = [name for name in members if name not in by_agent]
+        missing = ", ".join(name for name in lacking if (number, name) not in reported)
+        if missing and number < last:
+            yield f"{meeting}: not held by {missing}"
 
 
 def _faults(records: RunRecords) -> Iterator[str]:
@@ -119,7 +131,3 @@ def _faults(records: RunRecords) -> Iterator[str]:
         if record.event.kind is TaskEventKind.FAULT and not record.event.is_coped_with:
             time_s = seconds(record.stamp_ns)
             yield f"{record.agent}: fault at {time_s:.3f} s: {record.event.detail}"
-
-
-def _names(names: Iterable[str]) -> str:
-    return ", ".join(names)

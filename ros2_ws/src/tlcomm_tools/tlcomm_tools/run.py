@@ -119,7 +119,7 @@ def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
     scenario = ("--scenario", str(folder.scenario.absolute()))
     seed = ("--seed", str(options.seed))
     common = (*scenario, *seed, "--pace", str(options.pace), "--recorder")
-    solver, method = options.solver.name, options.method.value
+    solver, method = options.method.solver(options.solver).name, options.method.value
     coordination = ("--solver", solver, "--method", method)
     limit_s = time_limit_s(options.scenario, options.rounds, options.until_s)
     end: tuple[str, ...] = ("--until", repr(limit_s))
@@ -132,7 +132,7 @@ def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
 
     bag = ("--bag", str(folder.bag.absolute()))
     return [
-        spec("recorder", "recorder", *bag, *scenario, stop_last=True),
+        spec("recorder", "recorder", *bag, *scenario, *seed, *coordination, stop_last=True),
         spec("sim", "sim", *common, *end),
         *(
             spec(name, "agent", "--name", name, *coordination, *common)

@@ -46,6 +46,7 @@ __all__ = ["LostTime", "lost_time"]
 
 # Nearer than this to the heading in which a leg ends, the rest is the controller's business.
 _YAW_TOLERANCE_RAD: Final = 0.1
+_DIGITS: Final = 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,8 +65,13 @@ class LostTime:
 
     @property
     def lost_s(self) -> tuple[float, ...]:
-        """What was lost by the end of each step, λ_i(k)."""
-        return tuple(t - w for t, w in zip(self.finished_s, self.own_work_s, strict=True))
+        """What was lost by the end of each step, λ_i(k), to the microsecond.
+
+        Less is rounding: each time of an event is the nearest nanosecond.
+        """
+        pairs = zip(self.finished_s, self.own_work_s, strict=True)
+        # Adding 0 makes 0 of −0.
+        return tuple(round(t - w, _DIGITS) + 0.0 for t, w in pairs)
 
     @property
     def per_meeting_s(self) -> float | None:

@@ -48,7 +48,7 @@ class Meeting:
     @property
     def members(self) -> tuple[str, ...]:
         """Who meets, sorted."""
-        return tuple(own.agent for own in self.strategy.strategies)
+        return self.strategy.members
 
     @property
     def starts_s(self) -> float | None:
@@ -63,18 +63,22 @@ class Meeting:
         return {own.agent: own.extra_travel_s for own in self.strategy.strategies}
 
     @property
-    def wait_s(self) -> dict[str, float] | None:
-        """Realised t_c − t_i of each member; ``None`` if the meeting didn't take place."""
+    def wait_s(self) -> dict[str, float]:
+        """Realised t_c − t_i of each member; empty if not all reached their places."""
         starts_s = self.starts_s
         if starts_s is None:
-            return None
+            return {}
         return {name: starts_s - self.arrivals_s[name] for name in self.members}
 
     @property
-    def additional_s(self) -> dict[str, float] | None:
-        """ξ_i = δ_i + (t_c − t_i) of each member; ``None`` if the meeting didn't take place."""
-        detour_s, wait_s = self.detour_s, self.wait_s
-        return None if wait_s is None else {name: detour_s[name] + wait_s[name] for name in wait_s}
+    def additional_s(self) -> dict[str, float]:
+        """ξ_i = δ_i + (t_c − t_i) of each member; empty if not all reached their places."""
+        detour_s = self.detour_s
+        return {name: detour_s[name] + wait_s for name, wait_s in self.wait_s.items()}
+
+    def took_place_by(self, end_s: float) -> bool:
+        """Return whether it has begun by a time."""
+        return self.starts_s is not None and self.starts_s <= end_s
 
 
 def meetings(scenario: Scenario, records: RunRecords) -> tuple[Meeting, ...]:
@@ -86,8 +90,7 @@ def meetings(scenario: Scenario, records: RunRecords) -> tuple[Meeting, ...]:
     held: dict[tuple[int, tuple[str, ...]], TeamStrategy] = {}
     for record in records.strategies:
         strategy = record.strategy
-        members = tuple(own.agent for own in strategy.strategies)
-        held.setdefault((strategy.round, members), strategy)
+        held.setdefault((strategy.round, strategy.members), strategy)
     arrivals_s = _arrivals_s(records)
     period_s = scenario.communication.period_s
     return tuple(

@@ -190,7 +190,7 @@ class Exchange(_Section):
     mode: Literal["consensus", "exact"] = "consensus"
     period_s: Annotated[float, Field(ge=1e-3, le=_HUGE)] = 0.1
     step: Positive | None = None
-    tolerance: NotNegative = 0.01
+    tolerance: Annotated[float, Field(ge=1e-6, le=_HUGE)] = 0.01
 
 
 class MeasuredField(_Section):
