@@ -4,6 +4,7 @@
 ``PAGE_IN``     width of a page
 ``LineStyle``   how a line is told from others
 ``method_line`` a method's
+``in_order``    methods as figures show them
 ``agent_line``  an agent's
 ``agent_labels``  short names of agents
 ``styled``      the style, while figures are made and saved
@@ -13,7 +14,7 @@
 """
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -32,6 +33,7 @@ __all__ = [
     "LineStyle",
     "agent_labels",
     "agent_line",
+    "in_order",
     "method_line",
     "new_figure",
     "save",
@@ -118,6 +120,11 @@ _AGENTS: Final = (
 def method_line(method: str) -> LineStyle:
     """Return how a method's line looks: the same in all figures."""
     return _METHODS[method]
+
+
+def in_order(methods: Iterable[str]) -> list[str]:
+    """Return methods in the order in which figures show them, the team's way first."""
+    return sorted(methods, key=list(_METHODS).index)
 
 
 def agent_line(index: int) -> LineStyle:
