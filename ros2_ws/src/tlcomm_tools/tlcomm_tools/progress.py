@@ -9,6 +9,8 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import Self, TextIO
 
+from tlcomm_core.method import Method
+
 __all__ = ["Progress"]
 
 _BAR_CELLS = 24
@@ -42,6 +44,19 @@ class Progress:
         self._period_s = _BAR_PERIOD_S if self._is_bar else _LINE_PERIOD_S
         self._shown_s = self._started_s = clock()
         self._width = 0
+
+    @classmethod
+    def towards(cls, rounds: int | None, limit_s: float, method: Method) -> Self:
+        """Show progress towards the meeting of a round or, where none is counted, a time.
+
+        Args:
+            rounds: as asked for, or ``None``.
+            limit_s: when the run ends at the latest (simulated time).
+            method: of coordination.
+        """
+        if rounds is None or not method.meets_in_windows:
+            return cls(None, limit_s)
+        return cls(rounds, None)
 
     def show(self, sim_s: float, meetings_ended: int) -> None:
         """Show how far the run is, if it is time to; the first call starts the clock."""
