@@ -44,6 +44,11 @@ class Method(StrEnum):
         return self in (Method.TEAM, Method.STATIC, Method.ORACLE)
 
     @property
+    def goes_together(self) -> bool:
+        """Whether the team goes everywhere as one, by one way at one speed."""
+        return self is Method.ALL_TIME
+
+    @property
     def keeps_windows(self) -> bool:
         """Whether it promises that the team is connected for D_c in each window."""
         return self not in (Method.PAIRWISE, Method.NONE)

@@ -5,6 +5,7 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import Final
 
+from tlcomm_core.agent.member import check_start
 from tlcomm_core.agent.planner import check_tasks
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.model import Scenario
@@ -37,7 +38,9 @@ def run(options: Namespace) -> Status:
     """Run the scenario and show the results."""
     scenario = load_scenario(options.scenario)
     # Before any process starts: an agent without a plan would only take the others down with it.
-    check_tasks(Site.from_scenario(scenario))
+    site = Site.from_scenario(scenario)
+    check_tasks(site, options.method)
+    check_start(site, options.method)
     return run_scenario(scenario, options)
 
 
