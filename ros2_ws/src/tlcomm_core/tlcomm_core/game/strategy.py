@@ -51,3 +51,7 @@ class TeamStrategy:
     potential_s: float
     initial_potential_s: float
     bound_s: float | None = None
+
+    def part_of(self, agent: str) -> Strategy:
+        """Return a member's own strategy."""
+        return next(own for own in self.strategies if own.agent == agent)
