@@ -47,6 +47,7 @@ ARROWS: dict[str, set[str]] = {
         "scenario",
         "units",
         "workspace",
+        "world.radio",
         "world.unicycle",
     },
     "world": {"errors", "geometry", "units", "workspace", "world.radio", "world.unicycle"},
