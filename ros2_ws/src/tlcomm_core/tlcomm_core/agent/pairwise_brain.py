@@ -13,10 +13,9 @@ Where two don't agree, ``whereabouts`` says for the two of them where they meet 
 pairs nothing changes.
 """
 
-import math
 from collections import deque
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Final
 
 from tlcomm_core.agent.actions import Action
@@ -34,75 +33,16 @@ from tlcomm_core.agent.meeting import Meeting, News
 from tlcomm_core.agent.offering import Presence, later_offer
 from tlcomm_core.agent.pairs import Pair
 from tlcomm_core.agent.settings import Settings
-from tlcomm_core.game.offer import PlannedStop
+from tlcomm_core.agent.visit import Encounter, Partner, Visit, partner_of
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.actions import CountIgnored
 from tlcomm_core.protocol.messages import Message
 from tlcomm_core.protocol.negotiation import Negotiation, Phase
-from tlcomm_core.protocol.team import OnInfeasible, Team
 from tlcomm_core.protocol.whereabouts import Ending, Whereabouts
 from tlcomm_core.workspace.travel import TravelTimes
 
 __all__ = ["PairwiseBrain"]
-
-
-@dataclass(slots=True)
-class _Partner:
-    """What an agent keeps of one of its pairs.
-
-    Attributes:
-        name: the other's.
-        pair: when they meet.
-        team: the two of them.
-        whereabouts: of this agent, where their windows are counted one by one.
-        window: that of their present or next meeting.
-    """
-
-    name: str
-    pair: Pair
-    team: Team
-    whereabouts: Whereabouts = field(default_factory=lambda: Whereabouts((math.nan, math.nan)))
-    window: int = 0
-
-
-@dataclass(slots=True)
-class _Encounter:
-    """A meeting of two under way.
-
-    Attributes:
-        partner: whom the agent meets.
-        meeting: of the two.
-        stops: what the agent has offered.
-        is_booked: whether their next meeting is in the diary.
-        is_over: whether the agent may leave, for this partner's part.
-    """
-
-    partner: _Partner
-    meeting: Meeting
-    stops: tuple[PlannedStop, ...]
-    is_booked: bool = False
-    is_over: bool = False
-
-
-@dataclass(slots=True)
-class _Visit:
-    """A stay at a place of meeting.
-
-    Attributes:
-        presence: how the agent is there.
-        ahead: whom it hasn't begun to plan with.
-        encounters: the others that it meets there; several at the start only.
-    """
-
-    presence: Presence
-    ahead: deque[_Partner]
-    encounters: list[_Encounter] = field(default_factory=list)
-
-    @property
-    def is_over(self) -> bool:
-        """Whether all meetings here are."""
-        return not self.ahead and all(own.is_over for own in self.encounters)
 
 
 class PairwiseBrain:
@@ -118,12 +58,11 @@ class PairwiseBrain:
         self._settings: Final = settings
         self._journey: Final = Journey(settings)
         self._itinerary: Final = self._journey.itinerary
-        self._partners: Final = {
-            own.name: own for own in (_partner(settings, pair) for pair in pairs)
-        }
+        partners = [partner_of(settings.name, pair, settings.team) for pair in pairs]
+        self._partners: Final = {partner.name: partner for partner in partners}
         self._diary: Final = Diary(settings.team.duration_s)
         self._heading: Appointment | None = None
-        self._visit: _Visit | None = None
+        self._visit: Visit | None = None
         self._is_located = False
         self._meetings_ended = 0
         self._map_ns = 0
@@ -141,14 +80,12 @@ class PairwiseBrain:
     @property
     def phase(self) -> Phase | None:
         """Where planning with the present partner stands; ``None`` when not at a meeting."""
-        return None if self._visit is None else self._visit.encounters[-1].meeting.negotiation.phase
+        return None if self._visit is None else self._visit.latest.meeting.negotiation.phase
 
     @property
     def awaited(self) -> str | None:
         """A partner without whose word a meeting can't go on; ``None`` if anyone's may matter."""
-        if self._visit is None:
-            return None
-        return self._visit.encounters[-1].meeting.negotiation.awaited
+        return None if self._visit is None else self._visit.latest.meeting.negotiation.awaited
 
     @property
     def next_start(self) -> Pose | None:
@@ -161,12 +98,7 @@ class PairwiseBrain:
     @property
     def next_need_s(self) -> float:
         """When the brain must be told that time has passed; inf if only events matter."""
-        if self._visit is None:
-            return self._journey.next_need_s
-        return min(
-            own.meeting.negotiation.next_need_s if own.is_over else own.meeting.next_need_s
-            for own in self._visit.encounters
-        )
+        return self._journey.next_need_s if self._visit is None else self._visit.next_need_s
 
     def handle(self, event: Event, now_s: float) -> tuple[Action, ...]:
         """Take an event at the time ``now_s``, as ``Brain`` says."""
@@ -200,11 +132,10 @@ class PairwiseBrain:
 
         One whose turn hasn't come says it again when it is told that it hasn't been heard.
         """
-        encounters = () if self._visit is None else self._visit.encounters
-        for encounter in encounters:
-            if encounter.partner.name == message.sender:
-                return encounter.meeting.negotiation.hear(message)
-        return (CountIgnored("not meeting"),)
+        encounter = None if self._visit is None else self._visit.with_sender(message.sender)
+        if encounter is None:
+            return (CountIgnored("not meeting"),)
+        return encounter.meeting.negotiation.hear(message)
 
     def _see_map(self, change: MapChanged, now_s: float) -> list[Action]:
         """Go by another map.
@@ -215,8 +146,7 @@ class PairwiseBrain:
         self._journey.see_map(change, now_s)
         if self._visit is None or self._heading is None:
             return []
-        is_alone = all(own.meeting.negotiation.is_alone for own in self._visit.encounters)
-        if not is_alone or not self._itinerary.calls_away(self._journey.pose):
+        if not self._visit.is_alone or not self._itinerary.calls_away(self._journey.pose):
             return []
         self._visit = None
         return self._journey.set_out(now_s, self._heading.window)
@@ -244,19 +174,19 @@ class PairwiseBrain:
         self._begin_visit([self._partners[heading.partner]], now_s, heading.meeting_s)
         return actions
 
-    def _begin_visit(self, partners: Iterable[_Partner], now_s: float, meeting_s: float) -> None:
+    def _begin_visit(self, partners: Iterable[Partner], now_s: float, meeting_s: float) -> None:
         departure_s = max(now_s, meeting_s) + self._settings.team.duration_s
         presence = Presence(self._journey.pose, self._map_ns, now_s, departure_s)
-        self._visit = _Visit(presence, deque(partners))
+        self._visit = Visit(presence, deque(partners))
         self._meet_next(self._visit)
 
-    def _meet_next(self, visit: _Visit) -> None:
+    def _meet_next(self, visit: Visit) -> None:
         """Begin to plan with the next partner who is here, if there is one."""
         if not visit.ahead:
             return
         partner = visit.ahead.popleft()
         settings, team = self._settings, partner.team
-        window = partner.pair.after(partner.window)
+        window = partner.next_window
         offer = later_offer(
             settings,
             self._itinerary,
@@ -266,7 +196,7 @@ class PairwiseBrain:
         )
         negotiation = Negotiation(offer, window, team, settings.rounds)
         meeting = Meeting(settings.name, negotiation, team, self._leave_by_s)
-        visit.encounters.append(_Encounter(partner, meeting, offer.stops))
+        visit.encounters.append(Encounter(partner, meeting, offer.stops))
 
     def _prospect(self, departure_s: float) -> Prospect:
         now = Prospect(self._journey.pose, self._itinerary.done, departure_s)
@@ -280,7 +210,7 @@ class PairwiseBrain:
         way = self._itinerary.leg(pose, confirmed.part_of(self._settings.name))
         return confirmed.communication_s - way.duration_s
 
-    def _meet(self, visit: _Visit, now_s: float) -> list[Action]:
+    def _meet(self, visit: Visit, now_s: float) -> list[Action]:
         actions: list[Action] = []
         for encounter in visit.encounters:
             meeting = encounter.meeting
@@ -288,16 +218,17 @@ class PairwiseBrain:
             for news in meeting.news(now_s):
                 if news is News.AGREED:
                     self._book(encounter, now_s)
+                # All meetings at the start begin as one.
                 if news is not News.STARTED or encounter is visit.encounters[0]:
                     actions.append(self._journey.report_meeting(meeting.tell(news)))
             ending = None if encounter.is_over else meeting.ending(now_s)
             if ending is not None:
                 actions += self._end(encounter, ending, now_s)
-            if encounter.is_booked and encounter is visit.encounters[-1]:
+            if encounter.is_booked and encounter is visit.latest:
                 self._meet_next(visit)
         return [*actions, *self._leave(visit, now_s)] if visit.is_over else actions
 
-    def _leave(self, visit: _Visit, now_s: float) -> list[Action]:
+    def _leave(self, visit: Visit, now_s: float) -> list[Action]:
         """Set out for the next meeting in the diary."""
         meetings = [own.meeting for own in visit.encounters]
         agreed = [own for own in meetings if own.negotiation.agreed is not None]
@@ -315,61 +246,36 @@ class PairwiseBrain:
         closes_s = team.opens_s(heading.window + 1) - team.margin_s
         return max(0.0, min(team.duration_s, closes_s - heading.meeting_s))
 
-    def _book(self, encounter: _Encounter, now_s: float) -> None:
+    def _book(self, encounter: Encounter, now_s: float) -> None:
         """Put the pair's next meeting in the diary: as confirmed, or else by its whereabouts."""
-        confirmed = encounter.meeting.negotiation.confirmed
         if encounter.is_booked:
             return
         encounter.is_booked = True
+        confirmed = encounter.meeting.negotiation.confirmed
         if confirmed is None:
             self._diary.add(self._return(encounter.partner, now_s))
             return
         own = encounter.meeting.own_part(confirmed)
-        stop = next(stop for stop in encounter.stops if stop.task_index == own.task_index)
-        leaves = Pose(stop.x_m, stop.y_m, stop.yaw_rad)
-        pose = self._itinerary.leg(leaves, own).arrival
-        window, t_c_s = confirmed.round, confirmed.communication_s
-        self._diary.add(Appointment(encounter.partner.name, window, own, t_c_s, pose))
+        pose = self._itinerary.leg(encounter.pose_after(own.task_index), own).arrival
+        name, t_c_s = encounter.partner.name, confirmed.communication_s
+        self._diary.add(Appointment(name, confirmed.round, own, t_c_s, pose))
 
-    def _return(self, partner: _Partner, now_s: float) -> Appointment:
-        """Return the appointment where the two are to be, whether or not they have agreed."""
-        pair, last = partner.pair, self._prospect(now_s)
-        window = pair.after(partner.window)
-        place_m = partner.whereabouts.place(pair.turn(window))
-        place = Strategy(self._settings.name, *place_m, last.done, last.free_s, 0.0)
+    def _return(self, partner: Partner, now_s: float) -> Appointment:
+        """Return the appointment where the two are to be though they haven't agreed."""
+        last = self._prospect(now_s)
+        place = Strategy(self._settings.name, *partner.place_m, last.done, last.free_s, 0.0)
         leg = self._itinerary.leg(last.pose, place)
         own = replace(place, arrival_s=last.free_s + leg.duration_s)
-        meeting_s = max(own.arrival_s, partner.team.opens_s(window))
-        return Appointment(partner.name, window, own, meeting_s, leg.arrival)
+        meeting_s = max(own.arrival_s, partner.team.opens_s(partner.window))
+        return Appointment(partner.name, partner.window, own, meeting_s, leg.arrival)
 
-    def _end(self, encounter: _Encounter, ending: Ending, now_s: float) -> list[Action]:
+    def _end(self, encounter: Encounter, ending: Ending, now_s: float) -> list[Action]:
         """Be free to leave, as far as this partner is concerned."""
         encounter.is_over = True
-        partner, confirmed = encounter.partner, encounter.meeting.negotiation.confirmed
+        confirmed = encounter.meeting.negotiation.confirmed
         own = None if confirmed is None else encounter.meeting.own_part(confirmed)
-        new_m = None if own is None else (own.x_m, own.y_m)
-        turn = partner.pair.turn(partner.window)
-        partner.whereabouts = partner.whereabouts.after(turn, ending, new_m)
+        encounter.partner.part(ending, None if own is None else (own.x_m, own.y_m))
         self._book(encounter, now_s)
-        partner.window = partner.pair.after(partner.window)
         if ending is Ending.AGREED:
             return []
         return [self._journey.report_meeting(encounter.meeting.tell(ending))]
-
-
-def _partner(settings: Settings, pair: Pair) -> _Partner:
-    """Return what is known of a partner beforehand.
-
-    A pair can't put a meeting off to its next window: others will be agreed for those in between.
-    """
-    (name,) = (member for member in pair.members if member != settings.name)
-    on_infeasible = settings.team.on_infeasible
-    if on_infeasible is OnInfeasible.SKIP:
-        on_infeasible = OnInfeasible.WAIT
-    team = replace(
-        settings.team,
-        members=frozenset(pair.members),
-        stride=pair.stride,
-        on_infeasible=on_infeasible,
-    )
-    return _Partner(name, pair, team)
