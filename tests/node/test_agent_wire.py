@@ -8,9 +8,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
 
-from tlcomm_agent import wire
+from tlcomm_agent import wire, wire_messages
 from tlcomm_agent.wire_fields import WireError
-from tlcomm_core.agent.actions import Drive, TaskEvent, TaskEventKind
+from tlcomm_core.agent.actions import (
+    Drive,
+    ReportEstimate,
+    SayEstimate,
+    TaskEvent,
+    TaskEventKind,
+)
 from tlcomm_core.game.offer import MAX_STOPS, MemberOffer, PlannedStop
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose
@@ -18,16 +24,19 @@ from tlcomm_core.protocol.actions import SendMessage
 from tlcomm_core.protocol.messages import (
     BestResponse,
     Confirmation,
-    Message,
+    EstimateExchange,
+    Measurement,
     PlanOffer,
     Proposal,
+    TeamMessage,
 )
 from tlcomm_core.protocol.size import size_bytes
-from tlcomm_core.records import RoundTiming, StrategyRecord, TaskRecord
-from tlcomm_core.world.observation import Connectivity, Odometry
+from tlcomm_core.records import EstimateRecord, RoundTiming, StrategyRecord, TaskRecord
+from tlcomm_core.world.observation import Connectivity, Odometry, Reading
 from tlcomm_msgs import msg
-from tlcomm_sim.wire import encode_connectivity, encode_odometry
+from tlcomm_sim.wire import encode_connectivity, encode_odometry, encode_reading
 from tlcomm_tools.wire import (
+    read_estimate,
     read_round_timing,
     read_task_event,
     read_team_strategy,
@@ -75,6 +84,15 @@ MESSAGES = st.one_of(
     ),
     st.builds(Confirmation, NAMES, UINT32, UINT32, st.integers(0, 2**64 - 1), NAME_TUPLES),
 )
+MEASUREMENTS = st.builds(Measurement, NAMES, FLOATS, st.integers(-(2**63), 2**63 - 1))
+ESTIMATES = st.builds(
+    EstimateExchange,
+    NAMES,
+    UINT32,
+    st.integers(0, 2**16 - 1),
+    FLOATS,
+    st.lists(MEASUREMENTS, max_size=4).map(tuple),
+)
 # Times of today's wall clock.
 WALL_S = st.floats(1.0e9, 2.0**31 - 1.0)
 
@@ -84,14 +102,16 @@ def over_the_wire(message: RosMessage) -> RosMessage:
     return deserialize_message(serialize_message(message), type(message))
 
 
-@given(MESSAGES, STAMPS_NS)
-def test_what_agents_say_survives(message: Message, stamp_ns: int) -> None:
+@given(MESSAGES | ESTIMATES, STAMPS_NS)
+def test_what_agents_say_survives(message: TeamMessage, stamp_ns: int) -> None:
     """Messages come back equal, to the last bit and nanosecond, on the topic of their type."""
-    encoded = wire.encode_message(message, stamp_ns)
-    topic, same = wire.encode_action(SendMessage(message), "a", stamp_ns)
-    assert isinstance(encoded, wire.TEAM_TYPES[topic])
+    encoded = wire_messages.encode_message(message, stamp_ns)
+    is_estimate = isinstance(message, EstimateExchange)
+    action = SayEstimate(message) if is_estimate else SendMessage(message)
+    topic, same = wire.encode_action(action, "a", stamp_ns)
+    assert isinstance(encoded, wire_messages.team_types(measures=True)[topic])
     assert same == encoded
-    assert wire.decode_message(over_the_wire(encoded)) == (message, stamp_ns)
+    assert wire_messages.decode_message(over_the_wire(encoded)) == (message, stamp_ns)
 
 
 @given(
@@ -176,10 +196,45 @@ def test_counts_of_undelivered_messages_survive(counts: dict[str, int]) -> None:
     assert (encoded.agent, read_undelivered(encoded)) == ("a", counts)
 
 
-@given(MESSAGES, STAMPS_NS)
-def test_the_core_knows_how_long_messages_are(message: Message, stamp_ns: int) -> None:
+@given(FLOATS, st.none() | FLOATS, NAMES, STAMPS_NS)
+def test_estimates_survive(value: float, measured: float | None, name: str, stamp_ns: int) -> None:
+    """They read from a bag as they were made, with the last measurement if there is one."""
+    topic, encoded = wire.encode_action(ReportEstimate(value, measured), name, stamp_ns)
+    assert topic == "estimate"
+    has_measured = measured is not None
+    expected = EstimateRecord(stamp_ns, name, value, measured or 0.0, has_measured)
+    assert read_estimate(over_the_wire(encoded)) == expected
+
+
+@given(FLOATS, NAMES, NAMES, STAMPS_NS)
+def test_readings_survive(value: float, name: str, region: str, stamp_ns: int) -> None:
+    """An agent is told what it has measured, and when."""
+    message = over_the_wire(encode_reading(Reading(stamp_ns, name, region, value)))
+    assert (message.region, message.agent) == (region, name)
+    assert wire.decode_reading(message, name) == (stamp_ns, value)
+
+
+@pytest.mark.parametrize(
+    "reading",
+    [Reading(0, "a", "m", math.nan), Reading(0, "a", "m", math.inf), Reading(0, "b", "m", 1.0)],
+)
+def test_readings_that_are_none_or_another_s_are_refused(reading: Reading) -> None:
+    """A sensor that fails, or a wrong connection, doesn't become an estimate."""
+    with pytest.raises(WireError):
+        wire.decode_reading(encode_reading(reading), "a")
+
+
+def test_without_a_field_agents_talk_of_rounds_only() -> None:
+    """The topic of estimates is there if anything is measured."""
+    rounds = wire_messages.team_types(measures=False)
+    assert set(rounds) == {"plan_offer", "proposal", "best_response", "confirmation"}
+    assert set(wire_messages.team_types(measures=True)) == {*rounds, "estimate_exchange"}
+
+
+@given(MESSAGES | ESTIMATES, STAMPS_NS)
+def test_the_core_knows_how_long_messages_are(message: TeamMessage, stamp_ns: int) -> None:
     """Counted without ROS, a message has as many bytes as ROS makes of it, in whole words."""
-    length = len(serialize_message(wire.encode_message(message, stamp_ns)))
+    length = len(serialize_message(wire_messages.encode_message(message, stamp_ns)))
     assert size_bytes(message) == length + -length % 4
 
 
@@ -187,13 +242,19 @@ def offer_message() -> RosMessage:
     """Return a well-formed plan offer with one stop."""
     stop = PlannedStop(1, 2.0, 3.0, 0.5, 4.0)
     offer = MemberOffer("b", 1.0, 2.0, 3.0, 0.0, 1.0, 1.5, (stop,), ("danger",))
-    return wire.encode_message(PlanOffer("b", 1, ("b",), (offer,)), 0)
+    return wire_messages.encode_message(PlanOffer("b", 1, ("b",), (offer,)), 0)
 
 
 def response_message() -> RosMessage:
     """Return a well-formed best response."""
     strategy = Strategy("b", 1.0, 2.0, 3, 4.0, 5.0)
-    return wire.encode_message(BestResponse("b", 1, 2, 0, "b", -1.0, strategy), 0)
+    return wire_messages.encode_message(BestResponse("b", 1, 2, 0, "b", -1.0, strategy), 0)
+
+
+def estimate_message() -> RosMessage:
+    """Return a well-formed estimate with one measurement."""
+    known = (Measurement("a", 2.0, 3),)
+    return wire_messages.encode_message(EstimateExchange("b", 1, 2, 3.0, known), 0)
 
 
 def assign(message: RosMessage, path: str, value: object) -> RosMessage:
@@ -230,12 +291,17 @@ def assign(message: RosMessage, path: str, value: object) -> RosMessage:
         (response_message(), "strategy.location.x", math.inf),
         (response_message(), "strategy.arrival_time", math.nan),
         (msg.Confirmation(sender="b"), "confirmed", ["a"] * 1001),
+        (estimate_message(), "sender", ""),
+        (estimate_message(), "value", math.nan),
+        (estimate_message(), "known.0.value", math.inf),
+        (estimate_message(), "known.0.agent", ""),
+        (estimate_message(), "known", [msg.Measurement(agent="a")] * 1001),
     ],
 )
 def test_malformed_messages_are_refused(message: RosMessage, path: str, value: object) -> None:
     """Names, sizes, stamps and numbers out of their range are refused by name."""
     with pytest.raises(WireError):
-        wire.decode_message(assign(message, path, value))
+        wire_messages.decode_message(assign(message, path, value))
 
 
 @pytest.mark.parametrize(

@@ -82,6 +82,11 @@ class AgentConfig:
         return cls(name, scenario, pace, seed, solver, method, bool(get("recorder")))
 
     @property
+    def measures(self) -> bool:
+        """Whether agents measure anything."""
+        return self.scenario.field is not None
+
+    @property
     def others(self) -> tuple[str, ...]:
         """The other agents, in the scenario's order."""
         return tuple(name for name in self.scenario.agents if name != self.name)

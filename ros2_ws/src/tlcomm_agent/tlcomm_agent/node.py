@@ -23,7 +23,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 
-from tlcomm_agent import tasking, wire, wire_map
+from tlcomm_agent import tasking, wire, wire_map, wire_messages
 from tlcomm_agent.arrivals import Arrivals
 from tlcomm_agent.config import PARAMETERS, AgentConfig
 from tlcomm_agent.wire_fields import WireError
@@ -133,6 +133,7 @@ class AgentNode(Node):
         self._neighbours: Container[str] = ()
         self._attended: Container[str] = self.config.others if self._is_lockstep else ()
         self._grid: Final = site.grid
+        self._team_types: Final = wire_messages.team_types(measures=config.measures)
         self._create_publishers()
         self._create_listeners()
         self._create_occasions()
@@ -146,7 +147,7 @@ class AgentNode(Node):
         self._answer_pub = create(msg.TickReply, "/tick_reply", _DEPTH)
         self._pubs = {
             topic: create(kind, topic, _HELD if topic == "team_strategy" else _DEPTH)
-            for topic, kind in wire.TYPES.items()
+            for topic, kind in {**wire.TYPES, **self._team_types}.items()
         }
 
     def _create_listeners(self) -> None:
@@ -158,12 +159,14 @@ class AgentNode(Node):
                 (Odometry, "odom", self._see_odometry, _DEPTH),
                 (msg.Connectivity, "/connectivity", self._see_connectivity, _DEPTH),
                 (OccupancyGrid, "/map", self._see_map, _HELD),
+                (msg.Reading, "reading", self._see_reading, _DEPTH),
             )
+            if kind is not msg.Reading or self.config.measures
         ]
         team = [
             self._subscribe_team(other, topic, kind)
             for other in self.config.others
-            for topic, kind in wire.TEAM_TYPES.items()
+            for topic, kind in self._team_types.items()
         ]
         self._own_subscriptions = (*own, self._tick_sub, *team)
         self.create_service(srv.ChangeTask, "change_task", self._change_task)
@@ -215,6 +218,9 @@ class AgentNode(Node):
     def _see_map(self, message: OccupancyGrid) -> None:
         self._member.see_map(*wire_map.decode_map(message, self._grid))
 
+    def _see_reading(self, message: msg.Reading) -> None:
+        self._member.see_reading(*wire.decode_reading(message, self.config.name))
+
     def _change_task(self, request: Any, response: Any) -> Any:  # noqa: ANN401 (rclpy's are opaque)
         """Stand still while the plan for another task is made, which may take a second."""
         answer = tasking.IN_LOCKSTEP
@@ -237,7 +243,7 @@ class AgentNode(Node):
         What can't be read counts as sent at the start, so that nobody waits for it.
         """
         try:
-            message, sent_ns = wire.decode_message(deserialize_message(data, kind))
+            message, sent_ns = wire_messages.decode_message(deserialize_message(data, kind))
         except WireError as error:
             self._ignore(f"{other}: {error}")
             return 0
@@ -291,6 +297,7 @@ class AgentNode(Node):
             self._taken["odom"] >= tick.odometry_count
             and self._taken["connectivity"] >= tick.connectivity_count
             and self._taken["map"] >= tick.map_count
+            and self._taken["reading"] >= tick.reading_count
             and self._arrivals.are_complete(due, tick.time_ns)
         )
 
@@ -300,7 +307,7 @@ class AgentNode(Node):
         self._ready_timer.cancel()
         has_met = self._step(self._now_ns())
         self._attend()
-        if has_met:
+        if has_met or self._member.measured_at:
             self._answer(0)
 
     def _step(self, now_ns: int) -> bool:
@@ -331,20 +338,10 @@ class AgentNode(Node):
         self._pubs[topic].publish(message)
 
     def _answer(self, sequence: int) -> None:
-        need_ns, published = self._member.next_need_ns, self._published
-        self._answer_pub.publish(
-            msg.TickReply(
-                agent=self.config.name,
-                sequence=sequence,
-                ready=self._is_ready,
-                has_next_need=need_ns is not None,
-                next_need_ns=need_ns or 0,
-                team_messages=sum(published[topic] for topic in wire.TEAM_TYPES),
-                commands=published["cmd_vel"],
-                published=published.total(),
-                meetings_ended=self._member.meetings_ended,
-            )
-        )
+        member, published = self._member, self._published
+        answer = wire.encode_answer(member, sequence, published, self._team_types)
+        answer.ready = self._is_ready
+        self._answer_pub.publish(answer)
 
     def _say_ready(self) -> None:
         """Tell the sim, again and again until it begins, whether everybody has been found."""
@@ -356,7 +353,7 @@ class AgentNode(Node):
     def _is_matched(self) -> bool:
         """Whether every topic has found those whom it needs."""
         others, recorders = len(self.config.others), int(self.config.has_recorder)
-        hearers = {"cmd_vel": 1, **dict.fromkeys(wire.TEAM_TYPES, others)}
+        hearers = {"cmd_vel": 1, **dict.fromkeys(self._team_types, others)}
         publishers = [
             (self._answer_pub, 1),
             *((self._pubs[t], hearers.get(t, 0) + recorders) for t in self._pubs),

@@ -43,6 +43,11 @@ class Method(StrEnum):
         """Whether it promises that the team is connected for D_c in each window."""
         return self not in (Method.PAIRWISE, Method.NONE)
 
+    @property
+    def has_meetings(self) -> bool:
+        """Whether its strategies are meetings, each in a window, that agents go to and leave."""
+        return self not in (Method.ALL_TIME, Method.NONE)
+
 
 def parse_method(text: str) -> Method:
     """Return the method of a name.

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tlcomm_core.field.sensors import Sensors
 from tlcomm_core.game.solver import DEFAULT, Solver
 from tlcomm_core.method import Method
 from tlcomm_core.scenario.site import Site, later_grids
@@ -56,7 +57,7 @@ def create_world(site: Site, seed: int) -> World:
         bodies.append(Body(name, site.start_of(name), drive.linear_mps, drive.angular_radps))
     workspace = scenario.workspace
     times_ns = [nanoseconds(change.at_s) for change in workspace.changes]
-    return World(
+    world = World(
         bodies,
         site.grid,
         scenario.communication.range_m,
@@ -65,3 +66,7 @@ def create_world(site: Site, seed: int) -> World:
         changes=tuple(zip(times_ns, later_grids(workspace), strict=True)),
         line_of_sight=scenario.radio.line_of_sight,
     )
+    sensors = Sensors.of(site, seed)
+    if sensors is not None:
+        world.equip(sensors)
+    return world

@@ -2,6 +2,7 @@
 
 ``TaskRecord``      an agent's ``TaskEvent`` with its time
 ``StrategyRecord``  a team strategy that an agent holds as agreed
+``EstimateRecord``  what an agent takes the field to be
 ``RunRecords``      all of it, with the world's observations
 ``event_log``       the canonical text of a run's decisions, for comparing runs
 """
@@ -15,7 +16,7 @@ from tlcomm_core.agent.timing import RoundTiming
 from tlcomm_core.game.strategy import TeamStrategy
 from tlcomm_core.world.observation import Connectivity, Odometry
 
-__all__ = ["RunRecords", "StrategyRecord", "TaskRecord", "event_log"]
+__all__ = ["EstimateRecord", "RunRecords", "StrategyRecord", "TaskRecord", "event_log"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,11 +37,29 @@ class StrategyRecord:
     strategy: TeamStrategy
 
 
+@dataclass(frozen=True, slots=True)
+class EstimateRecord:
+    """An agent's estimate of the field from ``stamp_ns`` on.
+
+    Attributes:
+        value: the estimate.
+        last_measurement: the agent's own last; 0 and of no meaning if there was none.
+        has_measurement: whether there was one.
+    """
+
+    stamp_ns: int
+    agent: str
+    value: float
+    last_measurement: float
+    has_measurement: bool
+
+
 @dataclass(slots=True)
 class RunRecords:
     """Everything that results and checks are computed from, each list in order of time.
 
     Attributes:
+        estimates: whenever one has changed; of an agent without any estimate yet there is none.
         messages_sent: per agent, how many messages it said.
         bytes_sent: per agent, how long these were together, each as it is serialised.
         messages_undelivered: per agent, by reason, how many of the others' its radio didn't let
@@ -52,6 +71,7 @@ class RunRecords:
     timings: list[RoundTiming] = field(default_factory=list)
     odometry: list[Odometry] = field(default_factory=list)
     connectivity: list[Connectivity] = field(default_factory=list)
+    estimates: list[EstimateRecord] = field(default_factory=list)
     messages_sent: dict[str, int] = field(default_factory=dict)
     bytes_sent: dict[str, int] = field(default_factory=dict)
     messages_undelivered: dict[str, Mapping[str, int]] = field(default_factory=dict)

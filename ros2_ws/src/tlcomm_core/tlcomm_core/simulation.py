@@ -15,20 +15,22 @@ from tlcomm_core.agent.actions import (
     CountIgnored,
     Drive,
     HoldStrategy,
+    ReportEstimate,
     ReportTask,
+    SayEstimate,
     SendMessage,
 )
 from tlcomm_core.agent.controller import Pacing
 from tlcomm_core.agent.member import Member, create
 from tlcomm_core.agent.timing import TimedMember
 from tlcomm_core.mission import Mission, create_world
-from tlcomm_core.protocol.messages import Message
+from tlcomm_core.protocol.messages import TeamMessage
 from tlcomm_core.protocol.size import size_bytes
-from tlcomm_core.records import RunRecords, StrategyRecord, TaskRecord
+from tlcomm_core.records import EstimateRecord, RunRecords, StrategyRecord, TaskRecord
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.world.lockstep import LockStep, Reply
-from tlcomm_core.world.observation import Connectivity, Observation, Occupancy, Odometry
+from tlcomm_core.world.observation import Connectivity, Observation, Occupancy, Odometry, Reading
 
 __all__ = ["Simulated", "simulate"]
 
@@ -53,7 +55,7 @@ class Simulated:
 def simulate(
     mission: Mission,
     on_progress: Callable[[int, int], None] | None = None,
-    on_message: Callable[[Message], None] | None = None,
+    on_message: Callable[[TeamMessage], None] | None = None,
 ) -> Simulated:
     """Run a mission in this process.
 
@@ -82,7 +84,7 @@ def simulate(
 class _Harness:
     """The members' shell: carries observations and messages between world and members."""
 
-    def __init__(self, mission: Mission, on_message: Callable[[Message], None] | None) -> None:
+    def __init__(self, mission: Mission, on_message: Callable[[TeamMessage], None] | None) -> None:
         self._on_message = on_message
         scenario = mission.site.scenario
         silent = dict.fromkeys(scenario.agents, 0)
@@ -133,6 +135,9 @@ class _Harness:
                 case Occupancy():
                     for member in self._members.values():
                         member.see_map(observation.stamp_ns, observation.grid.free)
+                case Reading():
+                    member = self._members[observation.agent]
+                    member.see_reading(observation.stamp_ns, observation.value)
 
     def act(self, name: str, now_ns: int) -> Reply:
         """Let a member act; return its reply."""
@@ -152,16 +157,20 @@ class _Harness:
             team_messages=self.left.records.messages_sent[name],
             command=command,
             meetings_ended=member.meetings_ended,
+            measured_at=member.measured_at,
         )
 
     def _perform(self, name: str, action: Action, now_ns: int) -> None:
         match action:
-            case SendMessage(message):
+            case SendMessage(message) | SayEstimate(message):
                 self._broadcast(name, message, now_ns)
             case ReportTask(event):
                 self.left.records.tasks.append(TaskRecord(now_ns, name, event))
             case HoldStrategy(strategy):
                 self.left.records.strategies.append(StrategyRecord(now_ns, name, strategy))
+            case ReportEstimate(value, measured):
+                record = EstimateRecord(now_ns, name, value, measured or 0.0, measured is not None)
+                self.left.records.estimates.append(record)
             case CountIgnored(reason):
                 self.left.ignored[reason] += 1
             case Drive():
@@ -169,7 +178,7 @@ class _Harness:
             case _:
                 assert_never(action)
 
-    def _broadcast(self, sender: str, message: Message, now_ns: int) -> None:
+    def _broadcast(self, sender: str, message: TeamMessage, now_ns: int) -> None:
         self.left.records.messages_sent[sender] += 1
         self.left.records.bytes_sent[sender] += size_bytes(message)
         if self._on_message is not None:

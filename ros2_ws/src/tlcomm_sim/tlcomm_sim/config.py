@@ -57,6 +57,11 @@ class SimConfig:
         mission = Mission(site, seed, rounds, None if until_s is None else float(until_s))
         return cls(mission, parse_pace(str(get("pace"))), bool(get("recorder")))
 
+    @property
+    def measures(self) -> bool:
+        """Whether agents measure anything."""
+        return self.mission.site.scenario.field is not None
+
     def create_world(self) -> World:
         """Return the mission's world at t = 0."""
         return create_world(self.mission.site, self.mission.seed)

@@ -95,10 +95,15 @@ class FreeRunConductor(Conductor):
         return self._noted(outputs)
 
     def take_answer(self, answer: Answer) -> list[Output]:
-        """Note how far an agent has come."""
-        if answer.name != RECORDER and answer.name in self._meetings_ended:
+        """Note how far an agent has come, and whether it has measured."""
+        is_agent = answer.name != RECORDER and answer.name in self._meetings_ended
+        if is_agent:
             self._meetings_ended[answer.name] = answer.meetings_ended
-        return self._take_last_answer(answer) if self._is_ending else []
+        if self._is_ending:
+            return self._take_last_answer(answer)
+        if not (is_agent and answer.measured_at):
+            return []
+        return self._noted(_shown(self._world.measure(answer.name, answer.measured_at)))
 
     def _follow(self, wall_ns: int) -> list[Output]:
         """Advance the world, stopping at each of its own changes."""

@@ -5,7 +5,7 @@
 
 from collections.abc import Sequence
 
-from tlcomm_core.world.observation import Connectivity, Occupancy, Odometry
+from tlcomm_core.world.observation import Connectivity, Occupancy, Odometry, Reading
 from tlcomm_sim.outputs import Output, Show, ShowClock, Tick
 
 __all__ = ["Ledger"]
@@ -17,6 +17,7 @@ class Ledger:
     def __init__(self, agents: Sequence[str]) -> None:
         """Begin with nothing."""
         self._odometry = dict.fromkeys(agents, 0)
+        self._readings = dict.fromkeys(agents, 0)
         self._by_agents = dict.fromkeys(agents, 0)
         self._connectivity = 0
         self._clock = 0
@@ -25,8 +26,9 @@ class Ledger:
     @property
     def total(self) -> int:
         """Messages on recorded topics, by sim and agents."""
-        own = sum(self._odometry.values()) + self._connectivity + self._clock + self._maps
-        return own + sum(self._by_agents.values())
+        by_agent = (self._odometry, self._readings, self._by_agents)
+        own = self._connectivity + self._clock + self._maps
+        return own + sum(sum(counts.values()) for counts in by_agent)
 
     def note(self, output: Output) -> None:
         """Count a publication of the sim."""
@@ -39,6 +41,8 @@ class Ledger:
                 self._connectivity += 1
             case Show(Occupancy()):
                 self._maps += 1
+            case Show(Reading(agent=agent)):
+                self._readings[agent] += 1
             case _:
                 pass
 
@@ -63,6 +67,7 @@ class Ledger:
             connectivity_count=self._connectivity,
             clock_count=self._clock,
             map_count=self._maps,
+            reading_count=self._readings[agent],
             agent_counts=tuple(arrived),
             stop=stop,
         )
@@ -76,6 +81,7 @@ class Ledger:
             connectivity_count=self._connectivity,
             clock_count=self._clock,
             map_count=self._maps,
+            reading_count=sum(self._readings.values()),
             agent_counts=tuple(self._by_agents.values()),
             stop=stop,
         )

@@ -137,6 +137,7 @@ class LockStepConductor(Conductor):
             team_messages=answer.team_messages,
             command=self._last_command[agent] if is_new else None,
             meetings_ended=answer.meetings_ended,
+            measured_at=answer.measured_at,
         )
 
     def _has_commands_of(self, agent: str) -> bool:

@@ -26,7 +26,7 @@ from rosgraph_msgs.msg import Clock as ClockMessage
 
 from tlcomm_core.errors import InputError, TlcommError
 from tlcomm_core.units import nanoseconds, seconds
-from tlcomm_core.world.observation import Connectivity, Observation, Occupancy, Odometry
+from tlcomm_core.world.observation import Connectivity, Observation, Occupancy, Odometry, Reading
 from tlcomm_msgs import msg
 from tlcomm_sim import wire
 from tlcomm_sim.conductor import RECORDER
@@ -103,6 +103,7 @@ class SimNode(Node):
         self._on_ready: Final = on_ready
         self._on_progress: Final = on_progress
         self._agents: Final = tuple(self.config.mission.site.scenario.agents)
+        self._measuring: Final = self._agents if self.config.measures else ()
         self._world: Final = self.config.create_world()
         self._conductor: Final = self.config.create_conductor(self._world)
         self._ready: set[str] = set()
@@ -133,6 +134,9 @@ class SimNode(Node):
         self._map_pub = create(OccupancyGrid, "/map", held)
         self._odometry_pubs = {
             agent: create(OdometryMessage, f"/{agent}/odom", _DEPTH) for agent in self._agents
+        }
+        self._reading_pubs = {
+            agent: create(msg.Reading, f"/{agent}/reading", _DEPTH) for agent in self._measuring
         }
         self._tick_pubs = {
             agent: create(msg.Tick, f"/{agent}/tick", _DEPTH) for agent in self._agents
@@ -181,6 +185,7 @@ class SimNode(Node):
             (self._connectivity_pub, count + recorders),
             (self._map_pub, count + recorders),
             *((publisher, 1 + recorders) for publisher in self._odometry_pubs.values()),
+            *((publisher, 1 + recorders) for publisher in self._reading_pubs.values()),
             *((publisher, 1) for publisher in self._tick_pubs.values()),
             (self._recorder_pub, recorders),
         ]
@@ -245,6 +250,8 @@ class SimNode(Node):
                 self._connectivity_pub.publish(message)
             case Occupancy():
                 self._map_pub.publish(wire.encode_occupancy(observation))
+            case Reading(agent=agent):
+                self._reading_pubs[agent].publish(wire.encode_reading(observation))
             case _:
                 assert_never(observation)
 

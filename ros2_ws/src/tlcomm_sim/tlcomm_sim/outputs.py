@@ -36,6 +36,7 @@ class Tick:
         agent_counts: per agent, to an agent: of team messages that have arrived by ``time_ns``;
             to the recorder: of all that the agent has published.
         stop: the run is over.
+        reading_count: to an agent: of its own readings; to the recorder: of everybody's.
     """
 
     sequence: int
@@ -46,6 +47,7 @@ class Tick:
     map_count: int
     agent_counts: tuple[int, ...]
     stop: bool = False
+    reading_count: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +62,7 @@ class Answer:
     commands: int = 0
     published: int = 0
     meetings_ended: int = 0
+    measured_at: str = ""
 
 
 @dataclass(frozen=True, slots=True)

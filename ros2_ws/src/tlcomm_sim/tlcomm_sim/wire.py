@@ -1,7 +1,7 @@
 """The sim's messages and the core's values, one to one and lossless.
 
 ``encode_clock``, ``encode_odometry``, ``encode_connectivity``, ``encode_occupancy``,
-``encode_tick``
+``encode_reading``, ``encode_tick``
 ``decode_command``  a velocity command
 ``decode_answer``   an agent's or the recorder's answer to a tick
 """
@@ -21,7 +21,7 @@ from std_msgs.msg import Header
 
 from tlcomm_core.geometry import quaternion_from_yaw, yaw_from_quaternion
 from tlcomm_core.units import NANOSECONDS_PER_SECOND
-from tlcomm_core.world.observation import Connectivity, Occupancy, Odometry
+from tlcomm_core.world.observation import Connectivity, Occupancy, Odometry, Reading
 from tlcomm_msgs import msg
 from tlcomm_sim.outputs import Answer, Tick
 
@@ -32,6 +32,7 @@ __all__ = [
     "encode_connectivity",
     "encode_occupancy",
     "encode_odometry",
+    "encode_reading",
     "encode_tick",
 ]
 
@@ -91,6 +92,16 @@ def encode_occupancy(occupancy: Occupancy) -> OccupancyGrid:
     return message
 
 
+def encode_reading(reading: Reading) -> _RosMessage:
+    """Return what an agent measures."""
+    return msg.Reading(
+        header=_header(reading.stamp_ns),
+        agent=reading.agent,
+        region=reading.region,
+        value=reading.value,
+    )
+
+
 def encode_tick(tick: Tick) -> _RosMessage:
     """Return a tick as a message."""
     return msg.Tick(
@@ -100,6 +111,7 @@ def encode_tick(tick: Tick) -> _RosMessage:
         connectivity_count=tick.connectivity_count,
         clock_count=tick.clock_count,
         map_count=tick.map_count,
+        reading_count=tick.reading_count,
         agent_counts=list(tick.agent_counts),
         stop=tick.stop,
     )
@@ -121,6 +133,7 @@ def decode_answer(message: _RosMessage) -> Answer:
         commands=message.commands,
         published=message.published,
         meetings_ended=message.meetings_ended,
+        measured_at=message.measured_at,
     )
 
 

@@ -18,7 +18,7 @@ from tlcomm_core.game.problem import RoundProblem
 from tlcomm_core.game.solver import DEFAULT, Solver
 from tlcomm_core.mission import Mission
 from tlcomm_core.protocol.actions import SendMessage
-from tlcomm_core.protocol.messages import Message, PlanOffer
+from tlcomm_core.protocol.messages import PlanOffer, TeamMessage
 from tlcomm_core.scenario.site import Site, later_grids
 from tlcomm_core.simulation import simulate
 from tlcomm_core.units import nanoseconds
@@ -104,13 +104,13 @@ def _offers(
     site: Site, last: int, seed: int, solver: Solver
 ) -> Mapping[int, dict[str, MemberOffer]]:
     """Return what is offered for each round up to the last, by simulating those before."""
-    heard: list[Message] = []
+    heard: list[TeamMessage] = []
     limit_s = time_limit_s(site.scenario, last - 1, None)
     simulate(Mission(site, seed, last - 1, limit_s, solver), on_message=heard.append)
     return _offered(heard)
 
 
-def _offered(messages: Iterable[Message]) -> Mapping[int, dict[str, MemberOffer]]:
+def _offered(messages: Iterable[TeamMessage]) -> Mapping[int, dict[str, MemberOffer]]:
     offers: defaultdict[int, dict[str, MemberOffer]] = defaultdict(dict)
     for message in messages:
         if isinstance(message, PlanOffer):

@@ -18,7 +18,7 @@ from typing import Final
 from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.game.solver import BEST_RESPONSE, COALITION, Solver
 from tlcomm_core.mission import Mission
-from tlcomm_core.protocol.messages import BestResponse, Message, PlanOffer, Proposal
+from tlcomm_core.protocol.messages import BestResponse, Message, PlanOffer, Proposal, TeamMessage
 from tlcomm_core.protocol.size import size_bytes
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.site import Site
@@ -109,12 +109,12 @@ def listen(site: Site, rounds: int, solver: Solver) -> tuple[RoundTraffic, ...]:
 
     Cost: a simulation of the rounds before the last.
     """
-    said: list[Message] = []
+    said: list[TeamMessage] = []
     limit_s = time_limit_s(site.scenario, rounds - 1, None)
     left = simulate(Mission(site, 0, rounds - 1, limit_s, solver), on_message=said.append)
     return tuple(
         _round(
-            [message for message in said if message.round == number],
+            [own for own in said if isinstance(own, Message) and own.round == number],
             len(site.scenario.agents),
             _agreed_s(left.records, number),
         )

@@ -2,7 +2,8 @@
 
 ``DecodedMessage``      any object with a message's fields
 ``read_odometry``, ``read_connectivity``, ``read_task_event``, ``read_team_strategy``,
-``read_round_timing``, ``read_undelivered``  one per recorded type that results are computed from
+``read_round_timing``, ``read_estimate``, ``read_undelivered``  one per recorded type that results
+are computed from
 
 They need no ROS.
 """
@@ -14,13 +15,14 @@ from tlcomm_core.agent.actions import TaskEvent, TaskEventKind
 from tlcomm_core.agent.timing import RoundTiming
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose, yaw_from_quaternion
-from tlcomm_core.records import StrategyRecord, TaskRecord
+from tlcomm_core.records import EstimateRecord, StrategyRecord, TaskRecord
 from tlcomm_core.units import NANOSECONDS_PER_SECOND, seconds
 from tlcomm_core.world.observation import Connectivity, Odometry
 
 __all__ = [
     "DecodedMessage",
     "read_connectivity",
+    "read_estimate",
     "read_odometry",
     "read_round_timing",
     "read_task_event",
@@ -91,6 +93,17 @@ def read_round_timing(message: DecodedMessage) -> RoundTiming:
         solve_wall_s=message.solve_wall,
         offered_wall_s=seconds(_stamp_ns(message.offered_at)),
         agreed_wall_s=seconds(_stamp_ns(message.agreed_at)),
+    )
+
+
+def read_estimate(message: DecodedMessage) -> EstimateRecord:
+    """Read a ``tlcomm_msgs/Estimate``."""
+    return EstimateRecord(
+        stamp_ns=_stamp_ns(message.header.stamp),
+        agent=message.agent,
+        value=message.value,
+        last_measurement=message.last_measurement,
+        has_measurement=message.has_measurement,
     )
 
 

@@ -5,7 +5,7 @@ import pytest
 from tlcomm_tools.bag.topics import recorded_topics
 from tlcomm_tools.runtime.ledger import Expected, Ledger
 
-TOPICS = recorded_topics(("east", "west"))
+TOPICS = recorded_topics(("east", "west"), measures=True)
 NUMBERS = {topic.name: number for number, topic in enumerate(TOPICS)}
 
 
@@ -27,6 +27,8 @@ def test_a_new_ledger_is_complete_for_nothing() -> None:
         ("/east/cmd_vel", Expected(0, 0, 0, 0, (1, 0))),
         ("/west/team_strategy", Expected(0, 0, 0, 0, (0, 1))),
         ("/west/estimate", Expected(0, 0, 0, 0, (0, 1))),
+        ("/west/estimate_exchange", Expected(0, 0, 0, 0, (0, 1))),
+        ("/west/reading", Expected(0, 0, 0, 0, (0, 0), readings=1)),
     ],
 )
 def test_each_topic_counts_for_its_publisher(topic: str, expected: Expected) -> None:

@@ -1,12 +1,14 @@
 """What an agent's brain asks its shell to do: immutable requests, in the imperative.
 
-``Drive``         set the velocity
-``SendMessage``   say something to whoever is in range
-``ReportTask``    publish a ``TaskEvent``
-``HoldStrategy``  publish the team strategy that this agent holds as agreed
-``CountIgnored``  count a message that was late, duplicate, foreign or malformed
-``Action``        any of them
-``Fault``         what an agent copes with
+``Drive``           set the velocity
+``SendMessage``     say something to whoever is in range
+``ReportTask``      publish a ``TaskEvent``
+``HoldStrategy``    publish the team strategy that this agent holds as agreed
+``ReportEstimate``  publish what the agent takes the field to be
+``SayEstimate``     say so to whoever is in range
+``CountIgnored``    count a message that was late, duplicate, foreign or malformed
+``Action``          any of them
+``Fault``           what an agent copes with
 """
 
 from dataclasses import dataclass
@@ -14,6 +16,7 @@ from enum import IntEnum, StrEnum
 from typing import Final
 
 from tlcomm_core.protocol.actions import CountIgnored, HoldStrategy, SendMessage
+from tlcomm_core.protocol.messages import EstimateExchange
 
 __all__ = [
     "Action",
@@ -21,7 +24,9 @@ __all__ = [
     "Drive",
     "Fault",
     "HoldStrategy",
+    "ReportEstimate",
     "ReportTask",
+    "SayEstimate",
     "SendMessage",
     "TaskEvent",
     "TaskEventKind",
@@ -116,4 +121,26 @@ class ReportTask:
     event: TaskEvent
 
 
-Action = Drive | SendMessage | ReportTask | HoldStrategy | CountIgnored
+@dataclass(frozen=True, slots=True)
+class ReportEstimate:
+    """Publish what the agent takes the field to be.
+
+    Attributes:
+        value: the estimate.
+        last_measurement: the agent's own last; ``None`` if it has measured nothing yet.
+    """
+
+    value: float
+    last_measurement: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class SayEstimate:
+    """Say to whoever is in range what the agent takes the field to be."""
+
+    message: EstimateExchange
+
+
+Action = (
+    Drive | SendMessage | ReportTask | HoldStrategy | ReportEstimate | SayEstimate | CountIgnored
+)

@@ -15,7 +15,7 @@ from dataclasses import dataclass, fields
 from hashlib import blake2b
 from typing import Final
 
-from tlcomm_core.protocol.messages import Message
+from tlcomm_core.protocol.messages import TeamMessage
 from tlcomm_core.protocol.size import size_bytes
 from tlcomm_core.scenario.model import Radio
 from tlcomm_core.units import NANOSECONDS_PER_SECOND, nanoseconds
@@ -71,7 +71,7 @@ class Channel:
         )
         self._free_ns: dict[str, int] = {}
 
-    def carry(self, message: Message, sent_ns: int, distance_m: float) -> Passage:
+    def carry(self, message: TeamMessage, sent_ns: int, distance_m: float) -> Passage:
         """Return what becomes of a message.
 
         Args:
@@ -99,7 +99,7 @@ class Channel:
             return near
         return near + (far - near) * min(distance_m / self._range_m, 1.0)
 
-    def _queued_ns(self, message: Message, sent_ns: int) -> int | None:
+    def _queued_ns(self, message: TeamMessage, sent_ns: int) -> int | None:
         """Return how long it takes until the message is through; ``None`` if it is dropped."""
         if self._radio.bandwidth_bps is None:
             return 0
@@ -111,7 +111,7 @@ class Channel:
         self._free_ns[message.sender] = begin_ns + on_air_ns
         return begin_ns + on_air_ns - sent_ns
 
-    def _draws(self, message: Message, sent_ns: int) -> Iterator[float]:
+    def _draws(self, message: TeamMessage, sent_ns: int) -> Iterator[float]:
         """Yield numbers in [0, 1) that are the message's own, as if drawn at random."""
         key = f"{self._origin}/{sent_ns}/{_ticket(message)}"
         digest = blake2b(key.encode(), digest_size=_DRAWS * _DRAW_BYTES).digest()
@@ -120,7 +120,7 @@ class Channel:
             yield (bits >> (_BITS_PER_BYTE * _DRAW_BYTES - _DRAW_BITS)) * 2.0**-_DRAW_BITS
 
 
-def _ticket(message: Message) -> str:
+def _ticket(message: TeamMessage) -> str:
     """Return what tells a message from all others of the same instant; of offers, whose."""
     values = (getattr(message, field.name) for field in fields(message))
     words = [

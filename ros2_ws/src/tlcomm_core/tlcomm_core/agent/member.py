@@ -1,4 +1,4 @@
-"""One agent as a shell holds it: brain and radio, on integer nanoseconds.
+"""One agent as a shell holds it: brain, radio and estimate, on integer nanoseconds.
 
 ``Member``   the same in one process and over ROS
 ``create``   a member from a scenario
@@ -12,12 +12,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from tlcomm_core.agent.actions import Action
+from tlcomm_core.agent.actions import Action, CountIgnored
 from tlcomm_core.agent.avoidance import travel_of
 from tlcomm_core.agent.brain import Brain
 from tlcomm_core.agent.channel import Channel
 from tlcomm_core.agent.charts import Charts
 from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
+from tlcomm_core.agent.estimator import Estimator, create_estimator
 from tlcomm_core.agent.events import (
     MapChanged,
     MessageHeard,
@@ -36,8 +37,9 @@ from tlcomm_core.game.solver import DEFAULT, Solver
 from tlcomm_core.geometry import Pose
 from tlcomm_core.method import Method
 from tlcomm_core.planning.plan import LocalPlan
-from tlcomm_core.protocol.messages import Message
+from tlcomm_core.protocol.messages import EstimateExchange, TeamMessage
 from tlcomm_core.protocol.negotiation import Phase
+from tlcomm_core.protocol.reception import Reception
 from tlcomm_core.protocol.team import OnInfeasible, Team
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds, seconds
@@ -57,17 +59,32 @@ _OFF_TOLERANCES: Final = 5.0
 
 
 class Member:
-    """One agent: what its radio lets through and its odometry reach its brain, at given times."""
+    """One agent: what its radio lets through and its odometry reach its brain, at given times.
+
+    What neighbours say of the field reaches its estimator, and no brain.
+    """
 
     def __init__(
-        self, name: str, brain: Brain, radio: Radio, planner: Planner, charts: Charts
+        self,
+        name: str,
+        brain: Brain,
+        radio: Radio,
+        planner: Planner,
+        charts: Charts,
+        estimator: Estimator | None = None,
     ) -> None:
-        """Join a brain and a radio, with what makes plans for other tasks, and the maps."""
+        """Join a brain and a radio, with what makes plans for other tasks, and the maps.
+
+        Without an ``estimator`` nothing is measured.
+        """
         self.name: Final = name
         self._brain = brain
         self._radio = radio
         self._planner = planner
         self._charts = charts
+        self._estimator = estimator
+        self._measured_at = ""
+        self._brain_need_ns: int | None = 0
         self._odometry: list[OdometryReceived] = []
         self._maps: list[MapChanged] = []
         self._next_need_ns: int | None = None
@@ -91,6 +108,11 @@ class Member:
     def phase(self) -> Phase | None:
         """Where planning the next round stands; ``None`` when not at a meeting."""
         return self._brain.phase
+
+    @property
+    def measured_at(self) -> str:
+        """The region in which the last step ended the action that reads the field, or ""."""
+        return self._measured_at
 
     @property
     def undelivered(self) -> Mapping[str, int]:
@@ -118,8 +140,15 @@ class Member:
     def see_neighbours(self, stamp_ns: int, distances_m: Mapping[str, float]) -> None:
         """Note who is in range from ``stamp_ns`` on, and how far away."""
         self._radio.see_neighbours(stamp_ns, distances_m)
+        if self._estimator is not None:
+            self._estimator.see_neighbours(stamp_ns, distances_m)
 
-    def receive(self, message: Message, sent_ns: int) -> None:
+    def see_reading(self, stamp_ns: int, value: float) -> None:
+        """Take what the agent measured; the next step makes use of it."""
+        if self._estimator is not None:
+            self._estimator.read(value, stamp_ns)
+
+    def receive(self, message: TeamMessage, sent_ns: int) -> None:
         """Take a message off the air; the radio decides whether the brain hears it."""
         self._radio.receive(message, sent_ns)
 
@@ -155,21 +184,42 @@ class Member:
         seen: list[OdometryReceived | MapChanged] = [*odometry, *maps]
         for event in seen:
             actions += self._brain.handle(event, now_s)
+        is_told = bool(seen)
         for message in self._radio.heard(now_ns):
-            actions += self._brain.handle(MessageHeard(message), now_s)
-        meetings = self._brain.meetings_ended
-        actions += self._brain.handle(TimePassed(), now_s)
-        if self._brain.meetings_ended != meetings:
-            self._charts.forget()
-        self._next_need_ns = self._needed_ns(now_ns)
+            if isinstance(message, EstimateExchange):
+                actions += self._hear_estimate(message, now_ns)
+            else:
+                is_told = True
+                actions += self._brain.handle(MessageHeard(message), now_s)
+        if is_told or (self._brain_need_ns is not None and now_ns >= self._brain_need_ns):
+            actions += self._proceed(now_ns, now_s)
+        if self._estimator is not None:
+            self._measured_at = self._estimator.measured_at(actions)
+            actions += self._estimator.proceed(now_ns)
+        self._next_need_ns = self._needed_ns()
         return tuple(actions)
 
-    def _needed_ns(self, now_ns: int) -> int | None:
-        """Return when the brain wants to be called again, or a message is heard."""
-        need_s, due_ns = self._brain.next_need_s, self._radio.next_due_ns
+    def _hear_estimate(self, word: EstimateExchange, now_ns: int) -> tuple[Action, ...]:
+        if self._estimator is None:
+            return (CountIgnored(Reception.UNNEEDED.value),)
+        return self._estimator.hear(word, now_ns)
+
+    def _proceed(self, now_ns: int, now_s: float) -> tuple[Action, ...]:
+        """Let the brain do what is due."""
+        meetings = self._brain.meetings_ended
+        actions = self._brain.handle(TimePassed(), now_s)
+        if self._brain.meetings_ended != meetings:
+            self._charts.forget()
+        need_s = self._brain.next_need_s
         # Rounding must not ask for the instant that just was.
-        need_ns = None if need_s == math.inf else max(nanoseconds(need_s), now_ns + 1)
-        return min((time_ns for time_ns in (need_ns, due_ns) if time_ns is not None), default=None)
+        self._brain_need_ns = None if need_s == math.inf else max(nanoseconds(need_s), now_ns + 1)
+        return actions
+
+    def _needed_ns(self) -> int | None:
+        """Return when brain or estimator want to be called again, or a message is heard."""
+        estimate_ns = None if self._estimator is None else self._estimator.next_need_ns
+        needs_ns = (self._brain_need_ns, self._radio.next_due_ns, estimate_ns)
+        return min((time_ns for time_ns in needs_ns if time_ns is not None), default=None)
 
 
 def team_of(site: Site, solver: Solver = DEFAULT, method: Method = Method.TEAM) -> Team:
@@ -247,4 +297,7 @@ def create(
     channel = Channel(scenario.radio, scenario.communication.range_m, seed, name)
     unlinked = UNSEEN if scenario.radio.line_of_sight else OUT_OF_RANGE
     radio = Radio(nanoseconds(latency_s), channel, unlinked)
-    return Member(name, brain, radio, planner, charts)
+    # Whose method is not to meet doesn't talk by chance either.
+    partners = () if method is Method.NONE else scenario.agents
+    estimator = create_estimator(name, scenario, partners)
+    return Member(name, brain, radio, planner, charts, estimator)

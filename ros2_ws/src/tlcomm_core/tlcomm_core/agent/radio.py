@@ -15,7 +15,14 @@ from collections.abc import Mapping
 from typing import Final
 
 from tlcomm_core.agent.channel import Channel
-from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer, Proposal
+from tlcomm_core.protocol.messages import (
+    BestResponse,
+    Confirmation,
+    EstimateExchange,
+    PlanOffer,
+    Proposal,
+    TeamMessage,
+)
 
 __all__ = ["OUT_OF_RANGE", "UNSEEN", "Radio"]
 
@@ -24,11 +31,12 @@ UNSEEN: Final = "out of range or sight"
 
 # Messages that one sender sends at the same instant are heard in this order of their kinds, since
 # ROS keeps the order on each topic only.
-_KIND_RANK: Final[dict[type[Message], int]] = {
+_KIND_RANK: Final[dict[type[TeamMessage], int]] = {
     PlanOffer: 0,
     Proposal: 1,
     BestResponse: 2,
     Confirmation: 3,
+    EstimateExchange: 4,
 }
 
 # Free running, a message may be taken off the air some time after it arrived, and links may have
@@ -57,8 +65,8 @@ class Radio:
         self._unlinked: Final = unlinked
         self._since_ns: list[int] = [-1]
         self._neighbours: list[Mapping[str, float]] = [{}]
-        self._on_air: list[tuple[int, Message]] = []
-        self._under_way: list[tuple[int, Message]] = []
+        self._on_air: list[tuple[int, TeamMessage]] = []
+        self._under_way: list[tuple[int, TeamMessage]] = []
         self.undelivered: Final[Counter[str]] = Counter()
 
     @property
@@ -76,11 +84,11 @@ class Radio:
         self._since_ns.append(stamp_ns)
         self._neighbours.append(distances_m)
 
-    def receive(self, message: Message, sent_ns: int) -> None:
+    def receive(self, message: TeamMessage, sent_ns: int) -> None:
         """Take a message off the air, whoever sent it."""
         self._on_air.append((sent_ns, message))
 
-    def heard(self, now_ns: int) -> list[Message]:
+    def heard(self, now_ns: int) -> list[TeamMessage]:
         """Return, and forget, the messages that are heard by now.
 
         The order depends on the messages only, not on when they were taken off the air.
@@ -94,7 +102,7 @@ class Radio:
         self._forget_before(now_ns)
         return [message for _, message in sorted(due, key=_turn)]
 
-    def _pass_on(self, message: Message, sent_ns: int) -> None:
+    def _pass_on(self, message: TeamMessage, sent_ns: int) -> None:
         """Decide on a message for which the fixed latency has passed."""
         reached_ns = sent_ns + self._latency_ns
         distance_m = self._distance_m(message.sender, reached_ns)
@@ -117,7 +125,7 @@ class Radio:
         del self._since_ns[:oldest], self._neighbours[:oldest]
 
 
-def _turn(entry: tuple[int, Message]) -> tuple[int, str, int]:
+def _turn(entry: tuple[int, TeamMessage]) -> tuple[int, str, int]:
     """Return what messages are sorted by: time, sender, kind; else they stay as they came."""
     time_ns, message = entry
     return time_ns, message.sender, _KIND_RANK[type(message)]

@@ -1,11 +1,14 @@
 """What agents say to each other, as values; each carries its ticket.
 
-``PlanOffer``     who is here, since when, and what it plans
-``Proposal``      a whole team strategy on its way through the team
-``BestResponse``  σ* and strategy on their way through the team
-``Word``          either of these two: what a minimum consensus exchanges
-``Confirmation``  who holds the equilibrium
-``Message``       any of the four
+``PlanOffer``         who is here, since when, and what it plans
+``Proposal``          a whole team strategy on its way through the team
+``BestResponse``      σ* and strategy on their way through the team
+``Word``              either of these two: what a minimum consensus exchanges
+``Confirmation``      who holds the equilibrium
+``Message``           any of the four: what is said of a round
+``EstimateExchange``  what the sender takes the field to be
+``Measurement``       what a member has measured, in it
+``TeamMessage``       whatever is said
 """
 
 from collections.abc import Iterable
@@ -16,7 +19,17 @@ from tlcomm_core.game.best_response import priority
 from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.strategy import Strategy
 
-__all__ = ["BestResponse", "Confirmation", "Message", "PlanOffer", "Proposal", "Word"]
+__all__ = [
+    "BestResponse",
+    "Confirmation",
+    "EstimateExchange",
+    "Measurement",
+    "Message",
+    "PlanOffer",
+    "Proposal",
+    "TeamMessage",
+    "Word",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,4 +149,34 @@ class Confirmation:
     confirmed: tuple[str, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Measurement:
+    """What a member has measured, and when."""
+
+    agent: str
+    value: float
+    time_ns: int
+
+
+@dataclass(frozen=True, slots=True)
+class EstimateExchange:
+    """What the sender takes the field to be.
+
+    Attributes:
+        sender: who says it.
+        step: number of the exchange, on the team's common grid of time.
+        neighbours: how many agents the sender hears.
+        value: its estimate.
+        known: the newest measurement that it knows of each member, sorted by agent; none if the
+            team comes to one estimate by consensus.
+    """
+
+    sender: str
+    step: int
+    neighbours: int
+    value: float
+    known: tuple[Measurement, ...] = ()
+
+
 Message = PlanOffer | Word | Confirmation
+TeamMessage = Message | EstimateExchange

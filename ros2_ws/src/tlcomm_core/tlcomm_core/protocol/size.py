@@ -14,7 +14,14 @@ from typing import Final, assert_never
 
 from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.strategy import Strategy
-from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer, Proposal
+from tlcomm_core.protocol.messages import (
+    BestResponse,
+    Confirmation,
+    EstimateExchange,
+    PlanOffer,
+    Proposal,
+    TeamMessage,
+)
 
 __all__ = ["size_bytes"]
 
@@ -24,7 +31,7 @@ _FRAME: Final = "map"
 _SHORT, _INT, _DOUBLE = 2, 4, 8
 
 
-def size_bytes(message: Message) -> int:
+def size_bytes(message: TeamMessage) -> int:
     """Return the length of a message as it is serialised for sending."""
     layout = _Layout()
     layout.numbers(_INT, 2)
@@ -55,6 +62,14 @@ def size_bytes(message: Message) -> int:
             layout.numbers(_INT, 2)
             layout.numbers(_DOUBLE)
             layout.texts(message.confirmed)
+        case EstimateExchange():
+            layout.numbers(_INT)
+            layout.numbers(_SHORT)
+            layout.numbers(_DOUBLE)
+            layout.numbers(_INT)
+            for measurement in message.known:
+                layout.text(measurement.agent)
+                layout.numbers(_DOUBLE, 2)
         case _:
             assert_never(message)
     return _ENCAPSULATION + layout.end + -layout.end % _WORD

@@ -17,6 +17,7 @@ from tlcomm_core.ltl.parser import explain, parse
 from tlcomm_core.scenario.conditions import check_conditions
 from tlcomm_core.scenario.document import Place
 from tlcomm_core.scenario.finding import Finding, did_you_mean
+from tlcomm_core.scenario.measurements import check_field
 from tlcomm_core.scenario.meetings import check_meetings
 from tlcomm_core.scenario.model import Agent, Scenario, Workspace
 from tlcomm_core.scenario.site import grid_of, later_grids, region_location
@@ -48,6 +49,7 @@ def check(scenario: Scenario) -> list[Finding]:
     findings += _closed_regions(scenario.workspace)
     findings += _starts(scenario, grid)
     findings += check_conditions(scenario)
+    findings += check_field(scenario)
     findings += _tasks(scenario)
     if findings:
         return findings

@@ -1,7 +1,8 @@
 """The scenario's fields, their types and ranges, one class per section of the file.
 
 ``Scenario`` holds ``Workspace`` (with ``Region`` and ``Change``), ``Communication``, ``Drive``,
-``Noise``, ``Faults``, ``Radio``, ``Action`` and ``Agent`` (with ``DriveOverride`` and ``Soft``).
+``Noise``, ``Faults``, ``Radio``, ``MeasuredField`` (with ``Drift`` and ``Exchange``), ``Action``
+and ``Agent`` (with ``DriveOverride`` and ``Soft``).
 What fields mean together is checked in ``checks``.
 """
 
@@ -19,9 +20,12 @@ __all__ = [
     "AnyAction",
     "Change",
     "Communication",
+    "Drift",
     "Drive",
     "DriveOverride",
+    "Exchange",
     "Faults",
+    "MeasuredField",
     "Noise",
     "Radio",
     "Region",
@@ -35,6 +39,7 @@ MAX_OBSTACLES: Final = 5000
 MAX_REGIONS: Final = 1000
 MAX_CHANGES: Final = 100
 MAX_TASKS: Final = 100
+MAX_BREAKPOINTS: Final = 10_000
 
 # Far beyond any plant, and small enough that no product of two overflows.
 _HUGE: Final = 1e9
@@ -160,6 +165,54 @@ class Faults(_Section):
     retries: Annotated[int, Field(ge=0, le=1000)] = 3
 
 
+class Drift(_Section):
+    """What a station reads beside the field: amplitude · sin(frequency · t + the station's phase).
+
+    ``phases_rad`` names the stations; if not given, they are all regions in which the action is
+    possible, with phases spread evenly over them.
+    """
+
+    amplitude: NotNegative = 0.0
+    frequency_radps: NotNegative = 0.0
+    phases_rad: Annotated[dict[Name, Number], Field(min_length=1)] | None = None
+
+
+class Exchange(_Section):
+    """How agents in range of each other come to one estimate.
+
+    Attributes:
+        mode: by consensus, or by flooding what was measured and taking the exact average.
+        period_s: exchanges are at its multiples.
+        step: ε of the consensus; chosen by the number of neighbours if not given.
+        tolerance: neighbours whose estimates are no further apart exchange nothing.
+    """
+
+    mode: Literal["consensus", "exact"] = "consensus"
+    period_s: Annotated[float, Field(ge=1e-3, le=_HUGE)] = 0.1
+    step: Positive | None = None
+    tolerance: Annotated[float, Field(ge=1e-6, le=_HUGE)] = 0.01
+
+
+class MeasuredField(_Section):
+    """What agents measure: a value over time that is the same everywhere, up to a drift.
+
+    Attributes:
+        action: that reads it.
+        profile: ν as (time s, value): linear in between, constant before and after.
+        drift: of the stations.
+        noise: standard deviation of each reading.
+        exchange: of estimates.
+    """
+
+    action: Name
+    profile: Annotated[
+        tuple[tuple[NotNegative, Number], ...], Field(min_length=1, max_length=MAX_BREAKPOINTS)
+    ]
+    drift: Drift = Drift()
+    noise: NotNegative = 0.0
+    exchange: Exchange = Exchange()
+
+
 class Action(_Section):
     """How long an action takes, where it is possible, and after which others.
 
@@ -233,6 +286,7 @@ class Scenario(_Section):
     faults: Faults = Faults()
     radio: Radio = Radio()
     actions: Actions = {}
+    field: MeasuredField | None = None
     agents: Annotated[dict[Name, Agent], Field(min_length=1, max_length=MAX_AGENTS)]
 
     def drive_of(self, agent: str) -> Drive:

@@ -8,10 +8,11 @@
 Each agent answers a tick with the time of its own next need, and with how many team messages it
 has sent so far. So the least of all needs, the world's own next change and the next arrival of a
 message is the next instant at which anything can happen: time goes there, and only those whose
-time has come are ticked; all are when the map changes. A message sent at t arrives at t + latency,
-so what happens at one instant can't depend on the order in which agents act at it. Hence a run is a
-function of the scenario and the seed, whatever the machine's load, in one process and over ROS
-alike.
+time has come are ticked. (All are when the map changes. If there is anything to measure, those are
+who come into range of each other, and who has read its sensor is ticked again at once.) A message
+sent at t arrives at t + latency, so what happens at one instant can't depend on the order in which
+agents act at it. Hence a run is a function of the scenario and the seed, whatever the machine's
+load, in one process and over ROS alike.
 
 Source: conservative synchronisation with lookahead, K. M. Chandy and J. Misra, "Distributed
     simulation: a case study in design and verification of distributed programs", IEEE Trans.
@@ -19,11 +20,11 @@ Source: conservative synchronisation with lookahead, K. M. Chandy and J. Misra, 
 """
 
 import heapq
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from tlcomm_core.world.observation import Observation, Occupancy
+from tlcomm_core.world.observation import Connectivity, Observation, Occupancy
 from tlcomm_core.world.world import World
 
 __all__ = ["LockStep", "Reply", "Step", "StopRule"]
@@ -68,12 +69,14 @@ class Reply:
         team_messages: how many it has sent since the start.
         command: the last velocity (m/s, rad/s) that it commanded in this tick, if any.
         meetings_ended: how many meetings have ended for it.
+        measured_at: the region in which it has ended the action that reads the field, or "".
     """
 
     next_need_ns: int | None
     team_messages: int
     command: tuple[float, float] | None
     meetings_ended: int
+    measured_at: str = ""
 
 
 class LockStep:
@@ -99,6 +102,7 @@ class LockStep:
         self._arrived = dict.fromkeys(self._agents, 0)
         self._meetings_ended = dict.fromkeys(self._agents, 0)
         self._on_air: list[tuple[int, str, int]] = []
+        self._edges: tuple[tuple[int, int], ...] = ()
         self._time_ns = 0
         self._is_over = False
 
@@ -124,7 +128,7 @@ class LockStep:
             self._is_over = True
         observations = self._world.advance_to(time_ns)
         self._time_ns = time_ns
-        listeners = self._arrive(time_ns)
+        listeners = self._arrive(time_ns) | self._newly_linked(observations)
         if any(isinstance(seen, Occupancy) for seen in observations):
             listeners = frozenset(self._agents)
         return Step(
@@ -147,6 +151,8 @@ class LockStep:
                 self._sent[name] = reply.team_messages
                 arrival_ns = self._time_ns + self._latency_ns
                 heapq.heappush(self._on_air, (arrival_ns, name, reply.team_messages))
+            if reply.measured_at:
+                observations += self._measured(name, reply.measured_at)
             if reply.command is not None:
                 observations += self._world.command(name, *reply.command)
         if self._stop.meetings is not None and self.meetings_ended >= self._stop.meetings:
@@ -156,6 +162,23 @@ class LockStep:
     def _is_due(self, name: str) -> bool:
         need_ns = self._needs_ns[name]
         return need_ns is not None and need_ns <= self._time_ns
+
+    def _measured(self, name: str, region: str) -> tuple[Observation, ...]:
+        """Let an agent read its sensor; if that shows anything, tick it once more, at once."""
+        readings = self._world.measure(name, region)
+        if readings:
+            self._needs_ns[name] = self._time_ns
+        return readings
+
+    def _newly_linked(self, observations: Iterable[Observation]) -> frozenset[str]:
+        """Return who has come into range of somebody, if they have estimates to exchange."""
+        linked: set[str] = set()
+        for seen in observations:
+            if isinstance(seen, Connectivity) and self._world.has_sensors:
+                fresh = set(seen.edges).difference(self._edges)
+                self._edges = seen.edges
+                linked.update(self._agents[index] for edge in fresh for index in edge)
+        return frozenset(linked)
 
     def _arrive(self, time_ns: int) -> frozenset[str]:
         """Let messages arrive; return who is in range of a sender to hear them."""

@@ -3,6 +3,7 @@
 ``Odometry``      one agent's pose and velocity
 ``Connectivity``  who hears whom
 ``Occupancy``     the map from a time on
+``Reading``       what an agent measures
 ``Observation``   any of them
 """
 
@@ -11,7 +12,7 @@ from dataclasses import dataclass
 from tlcomm_core.geometry import Pose
 from tlcomm_core.workspace.grid import Grid
 
-__all__ = ["Connectivity", "Observation", "Occupancy", "Odometry"]
+__all__ = ["Connectivity", "Observation", "Occupancy", "Odometry", "Reading"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,4 +50,19 @@ class Occupancy:
     grid: Grid
 
 
-Observation = Odometry | Connectivity | Occupancy
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """What an agent measures of the field by the action that it has just ended.
+
+    Attributes:
+        region: the station.
+        value: what it reads there.
+    """
+
+    stamp_ns: int
+    agent: str
+    region: str
+    value: float
+
+
+Observation = Odometry | Connectivity | Occupancy | Reading

@@ -16,10 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tlcomm_core.errors import LocalMisuseError
+from tlcomm_core.field.sensors import Sensors
 from tlcomm_core.workspace.grid import Grid
 from tlcomm_core.world.collision import Obstacles
 from tlcomm_core.world.forecast import Forecast
-from tlcomm_core.world.observation import Connectivity, Observation, Occupancy, Odometry
+from tlcomm_core.world.observation import Connectivity, Observation, Occupancy, Odometry, Reading
 from tlcomm_core.world.radio import distances_m, edges, is_connected, neighbours, pair_indices
 from tlcomm_core.world.reach import Reach
 from tlcomm_core.world.vehicle import Body, Vehicle
@@ -79,6 +80,7 @@ class World:
         self._limits: Final = tuple((body.linear_mps, body.angular_radps) for body in bodies)
         self._line_of_sight: Final = line_of_sight
         self._reach = Reach(range_m, grid if line_of_sight else None)
+        self._sensors: Sensors | None = None
         self._noise: Final = noise
         self._rng: Final = rng
         self._maps: Final = deque(((0, grid), *changes))
@@ -100,6 +102,11 @@ class World:
     def refused(self) -> Mapping[str, int]:
         """How many commands of each agent were ignored for not being finite."""
         return MappingProxyType(self._refused)
+
+    @property
+    def has_sensors(self) -> bool:
+        """Whether there is anything to measure."""
+        return self._sensors is not None
 
     def next_change_ns(self) -> int:
         """Return the earliest time from now on at which the world has something to show.
@@ -170,6 +177,25 @@ class World:
             return ()
         self._forget_forecast()
         return (vehicle.report(self.now_ns),)
+
+    def equip(self, sensors: Sensors) -> None:
+        """Give the agents sensors; without there is nothing to measure."""
+        self._sensors = sensors
+
+    def measure(self, agent: str, region: str) -> tuple[Observation, ...]:
+        """Let an agent read its sensor, as at the end of an action.
+
+        Returns:
+            Its reading; nothing if it truly isn't at that station.
+
+        Raises:
+            LocalMisuseError: no such agent.
+        """
+        pose = self._vehicles[self._index(agent)].course.pose_at(self.now_ns)
+        if self._sensors is None:
+            return ()
+        value = self._sensors.read(agent, region, (pose.x_m, pose.y_m), self.now_ns)
+        return () if value is None else (Reading(self.now_ns, agent, region, value),)
 
     def odometry(self, agent: str) -> Odometry:
         """Return an agent's odometry at this moment, due or not; changes nothing."""

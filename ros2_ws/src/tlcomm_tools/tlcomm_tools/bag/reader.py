@@ -15,6 +15,7 @@ from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_
 from rosbags.typesys.store import Typestore
 
 from tlcomm_core.errors import InputError
+from tlcomm_core.method import Method, parse_method
 from tlcomm_core.records import RunRecords
 from tlcomm_tools import wire
 from tlcomm_tools.bag.container import Channel, Container, read_container
@@ -27,6 +28,7 @@ _DECODED = {
     "task_event": "tlcomm_msgs/msg/TaskEvent",
     "team_strategy": "tlcomm_msgs/msg/TeamStrategy",
     "round_timing": "tlcomm_msgs/msg/RoundTiming",
+    "estimate": "tlcomm_msgs/msg/Estimate",
     "undelivered": "tlcomm_msgs/msg/Undelivered",
 }
 _CONNECTIVITY = "tlcomm_msgs/msg/Connectivity"
@@ -40,7 +42,8 @@ class RecordedRun:
         records: the run.
         agents: as the bag's connectivity messages list them, or else sorted.
         end_ns: the last time recorded.
-        notes: what the recorder wrote about the run (scenario, method, …); empty in others' bags.
+        notes: what the recorder wrote about the run (scenario, method, solver, seed); empty in
+            others' bags.
         damage: why reading ended early, or "".
     """
 
@@ -49,6 +52,15 @@ class RecordedRun:
     end_ns: int
     notes: dict[str, str]
     damage: str
+
+    @property
+    def method(self) -> Method:
+        """Of coordination, as the notes say; a bag without such a note is of a whole team.
+
+        Raises:
+            InputError: the notes name a method that isn't known.
+        """
+        return parse_method(self.notes.get("method", Method.TEAM.value))
 
 
 def find_files(path: Path) -> tuple[Path, ...]:
@@ -148,6 +160,7 @@ def _gather(path: Path, containers: list[Container]) -> RecordedRun:
     records = collected.records
     for entries in (records.odometry, records.connectivity, records.tasks, records.strategies):
         entries.sort(key=attrgetter("stamp_ns"))
+    records.estimates.sort(key=attrgetter("stamp_ns"))
     return RecordedRun(
         records=records,
         agents=collected.agents or tuple(sorted(records.messages_sent)),
@@ -191,23 +204,19 @@ class _Collected:
     def _taker(self, channel: Channel) -> Callable[[wire.DecodedMessage], None]:
         agent, suffix = _split_topic(channel.topic)
         records = self.records
-        match suffix:
-            case "odom":
-                return lambda message: records.odometry.append(wire.read_odometry(message, agent))
-            case "task_event":
-                return lambda message: records.tasks.append(wire.read_task_event(message))
-            case "team_strategy":
-                return lambda message: records.strategies.append(
-                    wire.read_team_strategy(message, agent)
-                )
-            case "round_timing":
-                return lambda message: records.timings.append(wire.read_round_timing(message))
-            case "undelivered":
-                return lambda message: records.messages_undelivered.update(
-                    {agent: wire.read_undelivered(message)}
-                )
-            case _:
-                return self._take_connectivity
+        takers: dict[str, Callable[[wire.DecodedMessage], None]] = {
+            "odom": lambda message: records.odometry.append(wire.read_odometry(message, agent)),
+            "task_event": lambda message: records.tasks.append(wire.read_task_event(message)),
+            "team_strategy": lambda message: records.strategies.append(
+                wire.read_team_strategy(message, agent)
+            ),
+            "round_timing": lambda message: records.timings.append(wire.read_round_timing(message)),
+            "estimate": lambda message: records.estimates.append(wire.read_estimate(message)),
+            "undelivered": lambda message: records.messages_undelivered.update(
+                {agent: wire.read_undelivered(message)}
+            ),
+        }
+        return takers.get(suffix, self._take_connectivity)
 
     def _take_connectivity(self, message: wire.DecodedMessage) -> None:
         self.agents = self.agents or tuple(message.agents)

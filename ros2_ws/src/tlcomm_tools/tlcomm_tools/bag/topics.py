@@ -3,12 +3,13 @@
 ``Topic``            a recorded topic
 ``recorded_topics``  all of them, for a team
 ``TEAM_TOPICS``      the topics that agents talk on
+``FIELD_TOPICS``     those that are there only if something is measured
 """
 
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-__all__ = ["AGENT_TOPICS", "TEAM_TOPICS", "Topic", "recorded_topics"]
+__all__ = ["AGENT_TOPICS", "FIELD_TOPICS", "TEAM_TOPICS", "Topic", "recorded_topics"]
 
 AGENT_TOPICS = {
     "odom": "nav_msgs/msg/Odometry",
@@ -23,7 +24,11 @@ AGENT_TOPICS = {
     "round_timing": "tlcomm_msgs/msg/RoundTiming",
     "undelivered": "tlcomm_msgs/msg/Undelivered",
 }
-TEAM_TOPICS = ("plan_offer", "proposal", "best_response", "confirmation")
+FIELD_TOPICS = {
+    "reading": "tlcomm_msgs/msg/Reading",
+    "estimate_exchange": "tlcomm_msgs/msg/EstimateExchange",
+}
+TEAM_TOPICS = ("plan_offer", "proposal", "best_response", "confirmation", "estimate_exchange")
 _LATCHED = "team_strategy"
 
 
@@ -44,8 +49,9 @@ class Topic:
     latched: bool = False
 
 
-def recorded_topics(agents: Iterable[str]) -> tuple[Topic, ...]:
-    """Return every topic that a run of these agents records."""
+def recorded_topics(agents: Iterable[str], *, measures: bool = False) -> tuple[Topic, ...]:
+    """Return every topic that a run of these agents records; ``measures``: if there is a field."""
+    suffixes = {**AGENT_TOPICS, **FIELD_TOPICS} if measures else AGENT_TOPICS
     own = [
         Topic("/clock", "rosgraph_msgs/msg/Clock"),
         Topic("/connectivity", "tlcomm_msgs/msg/Connectivity"),
@@ -56,6 +62,6 @@ def recorded_topics(agents: Iterable[str]) -> tuple[Topic, ...]:
         *(
             Topic(f"/{agent}/{suffix}", type_name, agent, latched=suffix == _LATCHED)
             for agent in agents
-            for suffix, type_name in AGENT_TOPICS.items()
+            for suffix, type_name in suffixes.items()
         ),
     )

@@ -10,7 +10,9 @@ from tlcomm_tools.bag.topics import Topic
 
 __all__ = ["Expected", "Ledger"]
 
-_WORLD = ("odometry", "connectivity", "clock", "map")
+_WORLD = ("odometry", "connectivity", "clock", "map", "reading")
+# What the world says on agents' topics.
+_BY_TYPE = {"nav_msgs/msg/Odometry": "odometry", "tlcomm_msgs/msg/Reading": "reading"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +25,7 @@ class Expected:
         clock: by the world.
         maps: by the world.
         agents: by each agent, on all its recorded topics together.
+        readings: by the world, for all agents together.
     """
 
     odometry: int
@@ -30,11 +33,19 @@ class Expected:
     clock: int
     maps: int
     agents: tuple[int, ...]
+    readings: int = 0
 
     @property
     def counts(self) -> tuple[int, ...]:
-        """All of them, in the order of the fields."""
-        return (self.odometry, self.connectivity, self.clock, self.maps, *self.agents)
+        """All of them, those of agents last."""
+        return (
+            self.odometry,
+            self.connectivity,
+            self.clock,
+            self.maps,
+            self.readings,
+            *self.agents,
+        )
 
 
 class Ledger:
@@ -74,6 +85,4 @@ class Ledger:
 
 
 def _source(topic: Topic) -> str:
-    if topic.type == "nav_msgs/msg/Odometry":
-        return "odometry"
-    return topic.agent or topic.name.removeprefix("/")
+    return _BY_TYPE.get(topic.type) or topic.agent or topic.name.removeprefix("/")

@@ -61,11 +61,13 @@ class RecorderSettings:
     Attributes:
         bag: the bag's folder, which doesn't exist yet.
         agents: in the scenario's order.
+        measures: whether agents measure anything.
         notes: what the bag says about the run besides its messages.
     """
 
     bag: Path
     agents: tuple[str, ...]
+    measures: bool = False
     notes: dict[str, str] = field(default_factory=dict)
 
 
@@ -93,7 +95,7 @@ def run(settings: RecorderSettings, spin: Spin, notifier: Notifier) -> int:
 
 
 def _open_bag(settings: RecorderSettings) -> BagWriter:
-    topics = recorded_topics(settings.agents)
+    topics = recorded_topics(settings.agents, measures=settings.measures)
     store = load_typestore(Path(get_package_share_directory("tlcomm_msgs")))
     definitions = {topic.type: read_definition(store, topic.type) for topic in topics}
     return BagWriter(settings.bag, topics, definitions, settings.notes)
@@ -157,7 +159,7 @@ class Recorder(Node):
         self._is_running = False
         self._tick: Tick | None = None
         self._is_ticked = False
-        topics = recorded_topics(settings.agents)
+        topics = recorded_topics(settings.agents, measures=settings.measures)
         self._ledger = Ledger(topics, settings.agents)
         self._recorded = [self._subscribe(number, topic) for number, topic in enumerate(topics)]
         self.create_subscription(Tick, f"{_NAME}/tick", self._on_tick, _qos(latched=False))
@@ -256,6 +258,7 @@ def _expected(tick: Tick) -> Expected:
         connectivity=tick.connectivity_count,
         clock=tick.clock_count,
         maps=tick.map_count,
+        readings=tick.reading_count,
         agents=tuple(tick.agent_counts),
     )
 

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Final
 
 from tlcomm_core.errors import InputError
-from tlcomm_core.metrics import RunFacts, result_document
 from tlcomm_core.mission import Mission
+from tlcomm_core.result import RunFacts, result_document
 from tlcomm_core.scenario.loader import dumps, load_scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate

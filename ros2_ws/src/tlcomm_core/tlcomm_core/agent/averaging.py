@@ -1,0 +1,175 @@
+"""How agents in range of each other come to one estimate of what they measure.
+
+``Averaging``  what both ways have in common
+``Consensus``  weighted steps towards what neighbours say
+``Exact``      the average of everybody's newest measurement
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Sequence
+from math import fsum
+from typing import Final
+
+from tlcomm_core.protocol.messages import EstimateExchange, Measurement
+
+__all__ = ["Averaging", "Consensus", "Exact"]
+
+
+class Averaging(ABC):
+    """One agent's part in averaging; what it says and hears are ``EstimateExchange``."""
+
+    def __init__(self, own: str) -> None:
+        """Begin without any estimate.
+
+        Args:
+            own: the agent's name.
+        """
+        self._own: Final = own
+
+    @property
+    @abstractmethod
+    def estimate(self) -> float | None:
+        """What the agent takes the field to be; ``None`` while it knows nothing of it."""
+
+    @property
+    def known(self) -> tuple[Measurement, ...]:
+        """The measurements to be passed on, sorted by agent."""
+        return ()
+
+    @abstractmethod
+    def measure(self, value: float, time_ns: int) -> None:
+        """Take in what the agent has measured itself."""
+
+    @abstractmethod
+    def is_moved(self, said: EstimateExchange | None, heard: Iterable[EstimateExchange]) -> bool:
+        """Tell whether an exchange would change anything; the arguments are those of it."""
+
+    @abstractmethod
+    def exchange(self, said: EstimateExchange | None, heard: Sequence[EstimateExchange]) -> None:
+        """Take a step.
+
+        Args:
+            said: what the agent itself said last; ``None`` if it had nothing to say.
+            heard: what each neighbour said last.
+        """
+
+
+class Consensus(Averaging):
+    """Weighted steps towards what neighbours say: x_i ← x_i + Σ_j ε_ij (x_j − x_i).
+
+    The sum is over neighbours whose values differ by more than a tolerance, so it is the protocol
+    on the graph of these links alone, and comes to rest: where it changes anything, it lessens
+    Σ x_i² by at least a fixed amount. Then neighbours agree to the tolerance, and nothing more need
+    be said.
+
+    ε_ij is the given step, or 1 / (1 + the larger of both agents' numbers of neighbours): what
+    ε = 1 / (Δ + 1) is where Δ is known, from what the two ends of a link know. Either is the same
+    at both ends, and the x are those that both have said and heard; so what one gains the other
+    loses, and the sum of all estimates stays. That needs what is said to be heard. After a loss an
+    end steps towards an older value than it should, or not at all: the sum shifts by at most
+    that. But the weights of a step always sum up to less than 1, so an estimate never leaves the
+    span of those around it, and agreement comes all the same.
+
+    Source: R. Olfati-Saber, J. A. Fax and R. M. Murray, "Consensus and Cooperation in Networked
+        Multi-Agent Systems", Proc. IEEE 95(1), 2007, eq. (12) and Theorem 2: average consensus for
+        ε < 1/Δ on a connected undirected graph, Δ its largest number of neighbours; for links that
+        change see its Section III. The local weights are the Metropolis weights of L. Xiao,
+        S. Boyd and S. Lall, "A Scheme for Robust Distributed Sensor Fusion Based on Average
+        Consensus", IPSN 2005.
+    Deviates: differences within the tolerance count as none. Agents that have no value yet take the
+        mean of what they hear.
+    """
+
+    def __init__(self, own: str, step: float | None, tolerance: float) -> None:
+        """Begin without any estimate.
+
+        Args:
+            own: the agent's name.
+            step: ε, below 1/(N − 1); ``None``: of each link, by the neighbours of its ends.
+            tolerance: the difference of neighbours' values that is left as it is.
+        """
+        super().__init__(own)
+        self._step: Final = step
+        self._tolerance: Final = tolerance
+        self._estimate: float | None = None
+
+    @property
+    def estimate(self) -> float | None:
+        """x_i."""
+        return self._estimate
+
+    def measure(self, value: float, time_ns: int) -> None:
+        """Let a measurement take the estimate's place."""
+        del time_ns
+        self._estimate = value
+
+    def is_moved(self, said: EstimateExchange | None, heard: Iterable[EstimateExchange]) -> bool:
+        """Tell whether some neighbour's value is further off than the tolerance."""
+        if said is None:
+            return self._estimate is None and any(True for _ in heard)
+        return any(abs(word.value - said.value) > self._tolerance for word in heard)
+
+    def exchange(self, said: EstimateExchange | None, heard: Sequence[EstimateExchange]) -> None:
+        """Step towards what neighbours said, from what they were told."""
+        if self._estimate is None:
+            if heard:
+                self._estimate = fsum(word.value for word in heard) / len(heard)
+        elif said is not None:
+            # Exactly rounded, so that the order of neighbours doesn't matter.
+            self._estimate += fsum(self._flow(said, word) for word in heard)
+
+    def _flow(self, said: EstimateExchange, word: EstimateExchange) -> float:
+        difference = word.value - said.value
+        if abs(difference) <= self._tolerance:
+            return 0.0
+        most = max(said.neighbours, word.neighbours)
+        return difference * (1.0 / (1 + most) if self._step is None else self._step)
+
+
+class Exact(Averaging):
+    """The average of the newest measurement of every member that the agent knows of.
+
+    Measurements are flooded: whoever learns a newer one passes it on. So in a connected team all
+    know everybody's after as many exchanges as the graph's diameter, and their estimates are equal
+    to the bit. What is lost on all ways is missing until more is said.
+    """
+
+    def __init__(self, own: str) -> None:
+        """Begin without any measurement."""
+        super().__init__(own)
+        self._newest: dict[str, Measurement] = {}
+
+    @property
+    def estimate(self) -> float | None:
+        """The average."""
+        if not self._newest:
+            return None
+        return fsum(each.value for each in self._newest.values()) / len(self._newest)
+
+    @property
+    def known(self) -> tuple[Measurement, ...]:
+        """Each member's newest measurement, as far as it is known."""
+        return tuple(self._newest[agent] for agent in sorted(self._newest))
+
+    def measure(self, value: float, time_ns: int) -> None:
+        """Take in the agent's own newest measurement."""
+        self._newest[self._own] = Measurement(self._own, value, time_ns)
+
+    def is_moved(self, said: EstimateExchange | None, heard: Iterable[EstimateExchange]) -> bool:
+        """Tell whether some neighbour knows of a newer measurement."""
+        del said
+        return any(self._is_news(each) for word in heard for each in word.known)
+
+    def exchange(self, said: EstimateExchange | None, heard: Sequence[EstimateExchange]) -> None:
+        """Take over what is newer."""
+        del said
+        for word in heard:
+            for each in word.known:
+                if self._is_news(each):
+                    self._newest[each.agent] = each
+
+    def _is_news(self, measurement: Measurement) -> bool:
+        held = self._newest.get(measurement.agent)
+        if measurement.agent == self._own:
+            return False
+        return held is None or measurement.time_ns > held.time_ns

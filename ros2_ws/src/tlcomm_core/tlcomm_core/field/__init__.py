@@ -1,0 +1,1 @@
+"""What agents measure, as it truly is: only the world knows it."""
