@@ -58,6 +58,10 @@ class Pair:
         """Return the window that they meet in after one of theirs; 0 stands for t = 0."""
         return window + self.stride if window else self.first
 
+    def meets_in(self, window: int) -> bool:
+        """Return whether a window r ≥ 1 is one of theirs."""
+        return window >= self.first and (window - self.first) % self.stride == 0
+
     def turn(self, window: int) -> int:
         """Return the number of the meeting in one of their windows, from 0 at t = 0."""
         return -(-window // self.stride)
