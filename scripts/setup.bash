@@ -316,18 +316,17 @@ tlcomm_make_environment() {
   tlcomm_say "ready after $((SECONDS - from)) s"
 }
 
-# The linters and test runners, into the same environment.
-tlcomm_set_up_tests() {
-  local digest
-  digest=$(sha256sum <"$tlcomm_root/requirements/test.lock")
-  if tlcomm_holds "$tlcomm_venv/test_stamp" "${digest%% *}"; then return; fi
+# tlcomm_set_up_extra NAME "what it is": the packages of NAME.lock, into the same environment.
+tlcomm_set_up_extra() {
+  local digest stamp=$tlcomm_venv/$1_stamp
+  digest=$(sha256sum <"$tlcomm_root/requirements/$1.lock")
+  if tlcomm_holds "$stamp" "${digest%% *}"; then return; fi
   tlcomm_log=$tlcomm_home/log/setup.log
   (
     tlcomm_lock
-    if tlcomm_holds "$tlcomm_venv/test_stamp" "${digest%% *}"; then exit; fi
-    tlcomm_step tests "locked linters and test tools" \
-      tlcomm_pip -r "$tlcomm_root/requirements/test.lock"
-    tlcomm_write_stamp "$tlcomm_venv/test_stamp" "${digest%% *}"
+    if tlcomm_holds "$stamp" "${digest%% *}"; then exit; fi
+    tlcomm_step "$1" "$2" tlcomm_pip -r "$tlcomm_root/requirements/$1.lock"
+    tlcomm_write_stamp "$stamp" "${digest%% *}"
   )
 }
 

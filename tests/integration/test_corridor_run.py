@@ -10,6 +10,8 @@ import pytest
 from support.gate import gate
 from tlcomm_core.agent.channel import LOST
 from tlcomm_core.game.solver import DEFAULT
+from tlcomm_core.method import Method
+from tlcomm_core.metrics.run import run_metrics
 from tlcomm_core.mission import Mission
 from tlcomm_core.pace import Pace, parse_pace
 from tlcomm_core.records import event_log
@@ -34,7 +36,7 @@ def options_of(
     """Return a run of the corridor, or of another scenario."""
     return RunOptions(
         scenario=scenario,
-        method="team",
+        method=Method.TEAM,
         solver=DEFAULT,
         seed=0,
         pace=pace,
@@ -99,7 +101,9 @@ def odometry_key(odometry: Odometry) -> tuple[int, str]:
 def test_lock_step_run_equals_the_simulation(
     tmp_path: Path, scenario: Scenario, rounds: int
 ) -> None:
-    """Over ROS the same decisions fall and the same poses are recorded, to the bit; all is well."""
+    """Over ROS the same decisions fall and the same poses are recorded, to the bit; all is well,
+    and the figures are equal.
+    """
     segments: list[str] = []
     report = run_mission(
         options_of(tmp_path / "run", rounds, scenario=scenario),
@@ -108,8 +112,12 @@ def test_lock_step_run_equals_the_simulation(
     assert report.status is Status.FINE, report
     assert report.result["verdict"] == "ok"
     recorded = read_run(report.folder.bag).records
-    expected = simulate(Mission(Site.from_scenario(scenario), 0, rounds, None)).records
+    left = simulate(Mission(Site.from_scenario(scenario), 0, rounds, None))
+    expected = left.records
     assert list(event_log(recorded)) == list(event_log(expected))
+    metrics = run_metrics(scenario, expected, Method.TEAM, left.sim_ns).document()
+    assert report.result["metrics"]["team"] == metrics["team"]
+    assert report.result["metrics"]["agents"] == metrics["agents"]
     assert sorted(recorded.odometry, key=odometry_key) == sorted(
         expected.odometry, key=odometry_key
     )

@@ -81,7 +81,8 @@ def assert_readable(folder: Path) -> None:
     assert run.end_ns > 0
     with AnyReader([folder / "bag"]) as reader:
         assert reader.message_count > 0
-    assert audit_run(loads(run.notes["scenario"]), run).violations == ()
+    scenario = loads(run.notes["scenario"])
+    assert audit_run(scenario, run.method, run.records, run.end_ns).violations == ()
 
 
 @pytest.fixture(scope="module")
@@ -138,6 +139,13 @@ def test_every_topic_is_in_the_bag(finished: tuple[Path, str]) -> None:
     assert duration_ns > 90e9
     assert counts["/clock"] == pytest.approx(duration_ns / 1e8, abs=2)
     assert min(counts[f"/{name}/cmd_vel"] for name in AGENTS) > 10
+
+
+def test_the_bag_says_what_was_run(finished: tuple[Path, str]) -> None:
+    """Scenario, method, solver and seed are inside, so that others need nothing beside it."""
+    notes = read_run(finished[0] / "bag").notes
+    assert loads(notes.pop("scenario")).name == "corridor"
+    assert notes == {"method": "team", "solver": "coalition", "seed": "0"}
 
 
 def test_the_audit_passes(finished: tuple[Path, str]) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from tlcomm_core.game.solver import BEST_RESPONSE, DEFAULT, Solver
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
-from tlcomm_core.metrics import connected_intervals
+from tlcomm_core.metrics.connection import connected_intervals
 from tlcomm_core.mission import Mission
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.generator import random_scenario

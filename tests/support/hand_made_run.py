@@ -182,12 +182,22 @@ def task(  # noqa: D103 - says itself
     return TaskRecord(nanoseconds(time_s), agent, event)
 
 
-def write_bag(folder: Path, records: RunRecords, *, with_scenario: bool = True) -> BagWriter:
-    """Write records into a bag as the recorder does; return the closed writer."""
+def write_bag(
+    folder: Path, records: RunRecords, *, with_scenario: bool = True, method: str | None = None
+) -> BagWriter:
+    """Write records into a bag as the recorder does; return the closed writer.
+
+    Args:
+        folder: to be made.
+        records: what to write.
+        with_scenario: whether the bag says which it is.
+        method: which the bag says; ``None`` for a bag from before there was more than one.
+    """
     store = load_typestore(SHARE)
     topics = recorded_topics(AGENTS)
     definitions = {topic.type: read_definition(store, topic.type) for topic in topics}
     notes = {"scenario": dumps(hand_made_scenario())} if with_scenario else {}
+    notes |= {} if method is None else {"method": method}
     numbers = {topic.name: number for number, topic in enumerate(topics)}
     with BagWriter(folder, topics, definitions, notes) as writer:
         for name, stamp_ns, data in serialize_run(store, records):

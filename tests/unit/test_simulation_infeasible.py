@@ -3,9 +3,10 @@
 import pytest
 
 from tlcomm_core.errors import InfeasibleRoundError
-from tlcomm_core.metrics import RunFacts, result_document
+from tlcomm_core.method import Method
 from tlcomm_core.mission import Mission
 from tlcomm_core.records import TaskRecord
+from tlcomm_core.result import RunFacts, result_document
 from tlcomm_core.scenario.loader import loads
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.scenario.site import Site
@@ -46,7 +47,7 @@ def faults(left: Simulated, agent: str) -> list[TaskRecord]:
 
 def communication(scenario: Scenario, left: Simulated) -> dict[str, object]:
     """Return which windows were kept."""
-    facts = RunFacts("team", "best-response", 0, "lockstep", seconds(left.sim_ns), 1.0)
+    facts = RunFacts(Method.TEAM, "best-response", 0, "lockstep", seconds(left.sim_ns), 1.0)
     kept: dict[str, object] = result_document(scenario, left.records, facts)["communication"]
     return kept
 

@@ -8,9 +8,10 @@ import pytest
 from support.gate import CLOSED_S, OPENED_S, SHUT_S, gate
 from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.game.solver import BEST_RESPONSE
-from tlcomm_core.metrics import RunFacts, result_document
+from tlcomm_core.method import Method
 from tlcomm_core.mission import Mission
 from tlcomm_core.records import event_log
+from tlcomm_core.result import RunFacts, result_document
 from tlcomm_core.scenario.site import Site, later_grids
 from tlcomm_core.simulation import Simulated, simulate
 from tlcomm_core.units import seconds
@@ -40,7 +41,7 @@ def faults() -> list[tuple[float, str]]:
 
 def test_every_window_is_kept_and_nobody_runs_into_a_door() -> None:
     """Though agents are on their way when the doors close, and in two rooms for a while."""
-    facts = RunFacts("team", "coalition", 0, "lockstep", END_S, None)
+    facts = RunFacts(Method.TEAM, "coalition", 0, "lockstep", END_S, None)
     result = result_document(gate(), left().records, facts)
     assert result["verdict"] == "ok"
     assert result["communication"]["satisfied"] == END_S // 30.0

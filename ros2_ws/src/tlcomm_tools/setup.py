@@ -20,6 +20,7 @@ setup(
     python_requires=">=3.11",
     install_requires=[
         "lz4",
+        "matplotlib",
         "numpy",
         "pyyaml",
         "rosbags",
@@ -28,6 +29,7 @@ setup(
         "tlcomm_sim",
         "zstandard",
     ],
+    extras_require={"dask": ["distributed"]},
     entry_points={"console_scripts": ["tlcomm = tlcomm_tools.cli:main"]},
     zip_safe=False,
 )

@@ -3,12 +3,13 @@
 from pathlib import Path
 
 from support.hand_made_run import END_S, hand_made_records, hand_made_scenario
-from tlcomm_core.metrics import RunFacts, result_document
+from tlcomm_core.method import Method
+from tlcomm_core.result import RunFacts, result_document
 from tlcomm_tools.folder import RunFolder
 from tlcomm_tools.summary import format_summary
 from tlcomm_tools.table import format_number, format_table
 
-FACTS = RunFacts("team", "best-response", 3, 1.0, END_S, 12.5)
+FACTS = RunFacts(Method.TEAM, "best-response", 3, 1.0, END_S, 12.5)
 
 
 def test_a_summary_says_what_matters() -> None:
@@ -21,6 +22,10 @@ def test_a_summary_says_what_matters() -> None:
         "",
         "  windows kept     3 of 3",
         "  simulated        25.0 s in 12.5 s, 2.0 × real time",
+        "  makespans        20.0 s together",
+        "  additional time  3.0 s per meeting: detour 0.5 s, wait 2.5 s; 5.0 s with D_c",
+        "  lost time        9.0 s of each window",
+        "  information age  1.4 s on average, at most 6.0 s",
         "  own computing    median 20.0 ms, at most 20.0 ms per round",
         "  coordination     median 250.0 ms, at most 250.0 ms per round",
         "  not heard        lost 2, out of range 5",
@@ -36,6 +41,20 @@ def test_a_summary_says_what_matters() -> None:
         "files   runs/x",
         "check   scripts/tlcomm check runs/x",
     ]
+
+
+def test_what_a_run_does_not_have_is_left_out() -> None:
+    """A run without meetings has no additional time, one with a field has a deviation."""
+    result = result_document(hand_made_scenario(), hand_made_records(), FACTS)
+    result["metrics"]["team"] |= {
+        "additional_s": None,
+        "deviation_mean": 0.1234,
+        "deviation_max": 0.8201,
+    }
+    text = format_summary(result, RunFolder(Path("runs/x")), has_bag=False)
+    assert "additional time" not in text
+    assert "  lost time        9.0 s of each window\n" in text
+    assert "  deviation        0.123 on average, at most 0.820\n" in text
 
 
 def test_long_runs_and_long_verdicts_are_cut() -> None:

@@ -1,6 +1,9 @@
 """A run's folder.
 
-``RunFolder``  its files
+``RunFolder``      its files
+``dumps_json``     a document as a file's text
+``unused_folder``  a new path below another, marked by the time
+``replace_file``   writes a file whole or not at all
 """
 
 import json
@@ -13,7 +16,7 @@ from typing import Any, Self
 from tlcomm_core.errors import InputError
 from tlcomm_core.records import RunRecords, event_log
 
-__all__ = ["RunFolder"]
+__all__ = ["RunFolder", "dumps_json", "replace_file", "unused_folder"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +36,7 @@ class RunFolder:
         Raises:
             InputError: ``out`` holds something already, or can't be made.
         """
-        path = _unused(Path("runs"), f"{name}-{method}") if out is None else out
+        path = unused_folder(Path("runs"), f"{name}-{method}") if out is None else out
         try:
             path.mkdir(parents=True, exist_ok=True)
             if any(path.iterdir()):
@@ -69,15 +72,20 @@ class RunFolder:
 
     def write_scenario(self, text: str) -> None:
         """Write the scenario."""
-        _replace(self.scenario, text)
+        replace_file(self.scenario, text)
 
     def write_results(self, result: Mapping[str, Any], records: RunRecords) -> None:
         """Write results and event log."""
-        _replace(self.events, "".join(f"{line}\n" for line in event_log(records)))
-        _replace(self.result, json.dumps(result, indent=2, ensure_ascii=False) + "\n")
+        replace_file(self.events, "".join(f"{line}\n" for line in event_log(records)))
+        replace_file(self.result, dumps_json(result))
 
 
-def _unused(folder: Path, name: str) -> Path:
+def dumps_json(document: Mapping[str, Any]) -> str:
+    """Return a document as a file's text."""
+    return json.dumps(document, indent=2, ensure_ascii=False) + "\n"
+
+
+def unused_folder(folder: Path, name: str) -> Path:
     """Return a path that doesn't exist, marked by the local time."""
     stem = f"{name}-{time.strftime('%Y%m%d-%H%M%S')}"
     path, number = folder / stem, 1
@@ -87,7 +95,7 @@ def _unused(folder: Path, name: str) -> Path:
     return path
 
 
-def _replace(path: Path, text: str) -> None:
+def replace_file(path: Path, text: str) -> None:
     """Write a file whole or not at all.
 
     Raises:

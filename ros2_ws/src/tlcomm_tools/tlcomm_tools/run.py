@@ -16,9 +16,9 @@ from typing import Any, assert_never
 from tlcomm_core.errors import InputError
 from tlcomm_core.game.solver import Solver
 from tlcomm_core.method import Method
-from tlcomm_core.metrics import RunFacts, result_document
 from tlcomm_core.pace import Pace
 from tlcomm_core.records import RunRecords
+from tlcomm_core.result import RunFacts, result_document
 from tlcomm_core.scenario.loader import dumps
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import seconds
@@ -119,11 +119,11 @@ def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
     scenario = ("--scenario", str(folder.scenario.absolute()))
     seed = ("--seed", str(options.seed))
     common = (*scenario, *seed, "--pace", str(options.pace), "--recorder")
-    solver, method = options.solver.name, options.method.value
+    solver, method = options.method.solver(options.solver).name, options.method.value
     coordination = ("--solver", solver, "--method", method)
-    limit_s = time_limit_s(options.scenario, options.rounds, options.until_s)
+    limit_s = time_limit_s(options.scenario, options.rounds, options.until_s, options.method)
     end: tuple[str, ...] = ("--until", repr(limit_s))
-    if options.rounds is not None:
+    if options.rounds is not None and options.method.meets_in_windows:
         end += ("--rounds", str(options.rounds))
 
     def spec(name: str, *arguments: str, stop_last: bool = False) -> ProcessSpec:
@@ -132,7 +132,7 @@ def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
 
     bag = ("--bag", str(folder.bag.absolute()))
     return [
-        spec("recorder", "recorder", *bag, *scenario, stop_last=True),
+        spec("recorder", "recorder", *bag, *scenario, *seed, *coordination, stop_last=True),
         spec("sim", "sim", *common, *end),
         *(
             spec(name, "agent", "--name", name, *coordination, *common)

@@ -34,6 +34,7 @@ def format_summary(result: Mapping[str, Any], folder: RunFolder, *, has_bag: boo
         "",
         f"  windows kept     {links['satisfied']} of {links['windows']}",
         f"  simulated        {format_number(result['sim_s'], 1, 's')} in {wall}, {factor}",
+        *_format_metrics(result["metrics"]["team"]),
         *_format_times(result["rounds"]),
         *_format_undelivered(result["agents"]),
         "",
@@ -54,6 +55,31 @@ def _format_verdict(verdict: str | Sequence[str]) -> str:
     if len(verdict) > _SHOWN_FAILURES:
         shown.append(f"  … and {len(verdict) - _SHOWN_FAILURES} more")
     return "\n".join(["verdict: FAILED", *shown])
+
+
+def _format_metrics(team: Mapping[str, Any]) -> list[str]:
+    """Return the figures of the team that methods are compared by, as far as there are any."""
+
+    def told(key: str, digits: int = 1, unit: str = "s") -> str:
+        return format_number(team[key], digits, unit)
+
+    lines = {
+        "makespan_sum_s": f"makespans        {told('makespan_sum_s')} together",
+        "additional_s": (
+            f"additional time  {told('additional_s')} per meeting: detour {told('detour_s')}, "
+            f"wait {told('wait_s')}; {told('additional_with_duration_s')} with D_c"
+        ),
+        "lost_per_window_s": f"lost time        {told('lost_per_window_s')} of each window",
+        "information_age_max_s": (
+            f"information age  {told('information_age_mean_s')} on average, "
+            f"at most {told('information_age_max_s')}"
+        ),
+        "deviation_max": (
+            f"deviation        {told('deviation_mean', 3, '')} on average, "
+            f"at most {told('deviation_max', 3, '')}"
+        ),
+    }
+    return [f"  {line}" for key, line in lines.items() if team[key] is not None]
 
 
 def _format_times(rounds: Sequence[Mapping[str, Any]]) -> list[str]:

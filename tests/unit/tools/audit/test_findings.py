@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from support.hand_made_run import (
-    AGENTS,
     hand_made_records,
     hand_made_scenario,
     task,
@@ -16,18 +15,18 @@ from support.hand_made_run import (
 )
 from tlcomm_core.agent.actions import TaskEvent, TaskEventKind
 from tlcomm_core.geometry import Pose
+from tlcomm_core.method import Method
 from tlcomm_core.records import RunRecords, TaskRecord
 from tlcomm_core.scenario.model import Radio
 from tlcomm_tools.audit.findings import Audit, audit_run
-from tlcomm_tools.bag.reader import RecordedRun, read_run
+from tlcomm_tools.bag.reader import read_run
 
 S = 1_000_000_000
 
 
 def audit(records: RunRecords, end_s: float = 25.0) -> Audit:
-    """Audit records as if read from a bag."""
-    run = RecordedRun(records, AGENTS, round(end_s * S), {}, "")
-    return audit_run(hand_made_scenario(), run)
+    """Audit records of a whole team."""
+    return audit_run(hand_made_scenario(), Method.TEAM, records, round(end_s * S))
 
 
 def test_a_good_run_has_no_violations() -> None:
@@ -49,7 +48,8 @@ def test_a_bag_is_audited_like_the_records(tmp_path: Path) -> None:
     """The audit of the bag equals that of the records it was written from."""
     records = hand_made_records()
     write_bag(tmp_path / "bag", records)
-    found = audit_run(hand_made_scenario(), read_run(tmp_path / "bag"))
+    run = read_run(tmp_path / "bag")
+    found = audit_run(hand_made_scenario(), run.method, run.records, run.end_ns, run.damage)
     assert found.document() == audit(records).document()
 
 
@@ -61,8 +61,9 @@ def test_where_sight_matters_a_wall_between_two_parts_them() -> None:
         good.model_copy(update={"workspace": workspace, "radio": Radio(line_of_sight=asked)})
         for asked in (False, True)
     ]
-    run = RecordedRun(hand_made_records(), AGENTS, 25 * S, {}, "")
-    ignored, seen = (audit_run(scenario, run) for scenario in scenarios)
+    ignored, seen = (
+        audit_run(scenario, Method.TEAM, hand_made_records(), 25 * S) for scenario in scenarios
+    )
     assert [own.satisfied for own in ignored.windows] == [True, True, True]
     assert [own.satisfied for own in seen.windows] == [False, False]
 
@@ -280,8 +281,9 @@ def test_the_last_round_may_be_cut() -> None:
 
 def test_damage_is_a_violation() -> None:
     """A bag that couldn't be read to its end is never well, however well its beginning is."""
-    run = RecordedRun(hand_made_records(), AGENTS, 25 * S, {}, "the file has no end")
-    found = audit_run(hand_made_scenario(), run)
+    found = audit_run(
+        hand_made_scenario(), Method.TEAM, hand_made_records(), 25 * S, "the file has no end"
+    )
     assert found.violations == ("the bag is damaged: the file has no end",)
-    assert audit_run(hand_made_scenario(), run).document()["note"] == "the file has no end"
-    assert math.isclose(audit_run(hand_made_scenario(), run).sim_s, 25.0)
+    assert found.document()["note"] == "the file has no end"
+    assert math.isclose(found.sim_s, 25.0)

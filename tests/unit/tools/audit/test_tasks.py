@@ -2,12 +2,12 @@
 
 import pytest
 
-from support.hand_made_run import AGENTS, END_S, hand_made_records, hand_made_scenario, task
+from support.hand_made_run import END_S, hand_made_records, hand_made_scenario, task
 from tlcomm_core.agent.actions import TaskEventKind
+from tlcomm_core.method import Method
 from tlcomm_core.records import RunRecords
 from tlcomm_core.units import nanoseconds
 from tlcomm_tools.audit.findings import Audit, audit_run
-from tlcomm_tools.bag.reader import RecordedRun
 
 
 def audit_with(records: RunRecords, **changes: object) -> Audit:
@@ -15,7 +15,7 @@ def audit_with(records: RunRecords, **changes: object) -> Audit:
     scenario = hand_made_scenario()
     agent = scenario.agents["west"].model_copy(update=changes)
     changed = scenario.model_copy(update={"agents": {**scenario.agents, "west": agent}})
-    return audit_run(changed, RecordedRun(records, AGENTS, nanoseconds(END_S), {}, ""))
+    return audit_run(changed, Method.TEAM, records, nanoseconds(END_S))
 
 
 def without_claims() -> RunRecords:

@@ -61,3 +61,32 @@ def test_check_tells_a_violated_task(tmp_path: Path, capsys: pytest.CaptureFixtu
     status, out, _ = run(capsys, "check", "bag", "--scenario", "strict.yaml", "--json")
     found = json.loads(out)["tasks"]["west"]
     assert (status, found["verdict"], found["settled_s"]) == (1, "violated", 5.0)
+
+
+def test_check_goes_by_the_bags_method(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It names it, and asks for what that promises; a bag without a method is of a whole team."""
+    for method in (None, "static", "all-time"):
+        write_bag(tmp_path / f"bag-{method}", hand_made_records(), method=method)
+    status, out, _ = run(capsys, "check", "bag-None")
+    assert (status, out.splitlines()[0]) == (0, "line, method team: audit of 25.0 s")
+    assert "\n  windows kept       3 of 3, by the poses\n" in out
+    status, out, _ = run(capsys, "check", "bag-static")
+    assert (status, out.splitlines()[0]) == (0, "line, method static: audit of 25.0 s")
+    assert "\n  places kept        3 of 3 strategies\n" in out
+    status, out, _ = run(capsys, "check", "bag-all-time")
+    assert status == 1
+    assert "\n  connected          14.5 of 25.0 s, by the poses\n" in out
+    assert "\n  - not connected from 2.250 s to " in out
+    status, out, _ = run(capsys, "check", "bag-all-time", "--json")
+    document = json.loads(out)
+    assert (status, document["method"]) == (1, "all-time")
+    assert [own["kept"] for own in document["guarantees"]] == [False, False]
+
+
+def test_check_knows_no_other_method(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A bag of a method of somebody else's is refused in one line."""
+    write_bag(tmp_path / "bag", hand_made_records(), method="telepathy")
+    assert refusal(capsys, "check", "bag") == (
+        "tlcomm: error: 'bag': method: 'telepathy' isn't one of "
+        "team, static, pairwise, all-time, none, oracle\n"
+    )

@@ -7,29 +7,7 @@ from pathlib import Path
 import pytest
 
 from support.command import CORRIDOR, refusal, run
-
-RESULT = {
-    "scenario": "line",
-    "method": "team",
-    "solver": "coalition",
-    "seed": 0,
-    "pace": "lockstep",
-    "sim_s": 5.0,
-    "wall_s": None,
-    "realtime_factor": None,
-    "rounds": [],
-    "communication": {"windows": 2, "satisfied": 1, "missed": 1},
-    "agents": {
-        "one": {
-            "tasks_satisfied": 0,
-            "makespan_s": None,
-            "distance_m": 0.0,
-            "messages_sent": None,
-            "bytes_sent": None,
-            "messages_undelivered": None,
-        }
-    },
-}
+from tlcomm_core.result import result_document
 
 
 def test_out_must_be_empty_and_writable(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -93,14 +71,11 @@ def test_a_failed_property_is_status_1(
     """A simulation whose verdict isn't ok ends with status 1, its files written."""
     monkeypatch.setattr(
         "tlcomm_tools.verbs.simulate.result_document",
-        lambda *_: {
-            **json.loads(json.dumps(RESULT)),
-            "verdict": ["window 1 missed: connected for 0.000 s at most, not 3 s"],
-        },
+        lambda *run: {**result_document(*run), "verdict": ["window 1 missed"]},
     )
     status, out, _ = run(capsys, "simulate", CORRIDOR, "--until", "5", "--out", "mine")
     assert status == 1
-    assert "verdict: FAILED\n  - window 1 missed" in out
+    assert "verdict: FAILED\n  - window 1 missed\n" in out
     assert (tmp_path / "mine" / "result.json").is_file()
 
 

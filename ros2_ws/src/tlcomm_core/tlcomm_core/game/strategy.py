@@ -51,3 +51,12 @@ class TeamStrategy:
     potential_s: float
     initial_potential_s: float
     bound_s: float | None = None
+
+    @property
+    def members(self) -> tuple[str, ...]:
+        """Whose strategies these are, sorted."""
+        return tuple(own.agent for own in self.strategies)
+
+    def part_of(self, agent: str) -> Strategy:
+        """Return a member's own strategy."""
+        return next(own for own in self.strategies if own.agent == agent)

@@ -1,5 +1,6 @@
-"""The independent audit of a run: from its bag alone.
+"""The independent audit of a run: from its records alone, as a bag or memory holds them.
 
+``evidence``    the records, and what follows from them
 ``tracks``      where each agent was, from its odometry
 ``links``       when the whole team was connected, from the tracks
 ``words``       what each agent's steps made true, from the events and tracks
@@ -8,9 +9,11 @@
 ``tasks``       each task's verdict and satisfactions
 ``trespass``    whether agents kept out of what their tasks forbid
 ``conditions``  whether actions had what they need first
-``strategies``  whether all agents hold the same strategies
+``guarantees``  whether the method of coordination kept its promises
+``agreements``  who agrees on what
+``strategies``  whether those who agree hold the same strategies
 ``meetings``    whether their places are as the scenario demands
-``findings``    all of it as one document
+``findings``    all of it as one document: ``audit_run`` is the way in
 
 It shares no code with planner, game, protocol and world, so that it can't repeat their mistakes.
 The verdict comes from the monitors of the LTL library, which are tested on their own; how often φ

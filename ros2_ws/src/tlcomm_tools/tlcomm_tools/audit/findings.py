@@ -2,22 +2,25 @@
 
 ``AUDIT_FORMAT``  the document's ``format``
 ``Audit``         everything that was found
-``audit_run``     audits a recorded run
+``audit_run``     audits a run from its records, be they from a bag or from memory
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Final
 
+from tlcomm_core.method import Method
+from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_tools.audit.conditions import audit_conditions
-from tlcomm_tools.audit.links import WindowFinding, judge_windows, team_intervals
+from tlcomm_tools.audit.evidence import Evidence
+from tlcomm_tools.audit.guarantees.guarantee import Guarantee
+from tlcomm_tools.audit.guarantees.methods import audit_guarantees
+from tlcomm_tools.audit.links import WindowFinding
 from tlcomm_tools.audit.meetings import audit_meetings
 from tlcomm_tools.audit.strategies import StrategyFinding, audit_strategies
 from tlcomm_tools.audit.tasks import TaskFinding, audit_task
-from tlcomm_tools.audit.tracks import Track, build_tracks
 from tlcomm_tools.audit.trespass import audit_trespass
-from tlcomm_tools.bag.reader import RecordedRun
 
 __all__ = ["AUDIT_FORMAT", "Audit", "audit_run"]
 
@@ -30,17 +33,21 @@ class Audit:
 
     Attributes:
         scenario: its name.
-        sim_s: time that the bag spans.
-        note: why it couldn't be read to its end, or "".
-        windows: each window's outcome.
+        method: of coordination.
+        sim_s: time that the records span.
+        note: why they couldn't be read to their end, or "".
+        guarantees: what the method promises, and what was found of it.
+        windows: each window's outcome for the whole team, whether or not that is promised.
         tasks: each agent's task.
         strategies: what agents hold.
         violations: one line each, of all kinds.
     """
 
     scenario: str
+    method: Method
     sim_s: float
     note: str
+    guarantees: tuple[Guarantee, ...]
     windows: tuple[WindowFinding, ...]
     tasks: tuple[TaskFinding, ...]
     strategies: StrategyFinding
@@ -51,8 +58,10 @@ class Audit:
         return {
             "format": AUDIT_FORMAT,
             "scenario": self.scenario,
+            "method": self.method.value,
             "sim_s": self.sim_s,
             "note": self.note or None,
+            "guarantees": [own.document() for own in self.guarantees],
             "windows": [
                 {"round": own.round, "connected_s": own.longest_s, "satisfied": own.satisfied}
                 for own in self.windows
@@ -72,59 +81,48 @@ class Audit:
         }
 
 
-def audit_run(scenario: Scenario, run: RecordedRun) -> Audit:
-    """Audit a recorded run against its scenario."""
-    end_s = run.end_ns * 1e-9
-    agents = tuple(scenario.agents)
-    tracks, faults = build_tracks(run.records.odometry, agents, end_s)
-    links = scenario.communication
-    walls = scenario.workspace.obstacles_m if scenario.radio.line_of_sight else ()
-    is_complete = len(tracks) == len(agents)
-    intervals = team_intervals(tracks, links.range_m, walls) if is_complete else []
-    windows = judge_windows(intervals, links.period_s, links.duration_s, end_s)
-    track_of = {track.agent: track for track in tracks}
-    tasks = [
-        audit_task(
-            scenario,
-            agent,
-            [record for record in run.records.tasks if record.agent == agent],
-            track_of.get(agent),
-            end_s,
-        )
-        for agent in agents
-    ]
-    strategies = audit_strategies(run.records.strategies, run.records.tasks, agents, links.period_s)
-    missed = [
-        f"window {own.round}: connected for {own.longest_s:.3f} s from "
-        f"[{own.round * links.period_s:g} s, {(own.round + 1) * links.period_s:g} s) on, "
-        f"not {links.duration_s:g} s"
-        for own in windows
-        if not own.satisfied
-    ]
+def audit_run(
+    scenario: Scenario, method: Method, records: RunRecords, end_ns: int, damage: str = ""
+) -> Audit:
+    """Audit a run against its scenario, and against what its method promises.
+
+    Args:
+        scenario: what was asked for.
+        method: of coordination.
+        records: what was recorded, from a bag or in memory.
+        end_ns: end of the run.
+        damage: why the records couldn't be read to their end, or "".
+
+    Cost: about 2 s for 100 rounds of 8 agents.
+    """
+    evidence = Evidence.gather(scenario, records, end_ns * 1e-9)
+    guarantees = audit_guarantees(method, evidence)
+    tasks = [audit_task(method, evidence, agent) for agent in evidence.agents]
+    strategies = audit_strategies(method, evidence)
     violations = [
-        *([f"the bag is damaged: {run.damage}"] if run.damage else []),
-        *faults,
-        *missed,
+        *([f"the bag is damaged: {damage}"] if damage else []),
+        *evidence.faults,
+        *(line for own in guarantees for line in own.violations),
         *(line for own in tasks for line in own.violations),
-        *(line for own in agents for line in _breaches(scenario, own, run, track_of.get(own))),
+        *(line for agent in evidence.agents for line in _breaches(evidence, agent)),
         *strategies.violations,
-        *audit_meetings(scenario, run.records.strategies),
+        *audit_meetings(scenario, records.strategies),
     ]
     return Audit(
         scenario=scenario.name,
-        sim_s=end_s,
-        note=run.damage,
-        windows=tuple(windows),
+        method=method,
+        sim_s=evidence.end_s,
+        note=damage,
+        guarantees=guarantees,
+        windows=tuple(evidence.windows),
         tasks=tuple(tasks),
         strategies=strategies,
         violations=tuple(violations),
     )
 
 
-def _breaches(
-    scenario: Scenario, agent: str, run: RecordedRun, track: Track | None
-) -> Iterator[str]:
+def _breaches(evidence: Evidence, agent: str) -> Iterator[str]:
     """Say where an agent was, or what it did, that it may not."""
-    events = [record for record in run.records.tasks if record.agent == agent]
+    scenario, track = evidence.scenario, evidence.track_of.get(agent)
     yield from audit_trespass(scenario, agent, track)
-    yield from audit_conditions(scenario, agent, events, track)
+    yield from audit_conditions(scenario, agent, evidence.events_of(agent), track)

@@ -1,22 +1,22 @@
-"""Whether all agents hold the same strategy in each round, and one each.
+"""Whether those who agree on a strategy hold the same one, and one each.
 
 ``StrategyFinding``   what is held
 ``audit_strategies``  looks it up
+
+Who agrees, and on what, depends on the method: ``agreements`` says it.
 """
 
-from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Final
 
-from tlcomm_core.agent.actions import TaskEventKind
-from tlcomm_core.game.strategy import TeamStrategy
-from tlcomm_core.records import StrategyRecord, TaskRecord
+from tlcomm_core.method import Method
+from tlcomm_tools.audit.agreements import Agreement, agreements_of
+from tlcomm_tools.audit.evidence import Evidence
 
 __all__ = ["StrategyFinding", "audit_strategies"]
 
-_SLACK_S = 1e-6
-
-_Held = Mapping[str, Sequence[TeamStrategy]]
+_SLACK_S: Final = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,8 +24,8 @@ class StrategyFinding:
     """What is held.
 
     Attributes:
-        rounds: how many rounds any agent holds a strategy for.
-        equal: for how many of these all agents hold the same.
+        rounds: how many rounds, meetings of pairs or turns any agent holds a strategy for.
+        equal: for how many of these all who agree on it hold the same.
         violations: one line each.
     """
 
@@ -34,70 +34,46 @@ class StrategyFinding:
     violations: tuple[str, ...]
 
 
-def audit_strategies(
-    strategies: Sequence[StrategyRecord],
-    events: Sequence[TaskRecord],
-    agents: Sequence[str],
-    period_s: float,
-) -> StrategyFinding:
-    """Compare the strategies that agents hold.
-
-    A round may be held by some agents only if the run ended before the meeting before it did.
-
-    Args:
-        strategies: all that were published.
-        events: of all agents.
-        agents: who should hold them.
-        period_s: T_c.
-    """
-    held: dict[int, dict[str, list[TeamStrategy]]] = defaultdict(lambda: defaultdict(list))
-    for record in strategies:
-        held[record.strategy.round][record.agent].append(record.strategy)
-    ended = _meetings_ended(events, agents)
-    rounds = set(held) | {number + 1 for number in ended}
+def audit_strategies(method: Method, evidence: Evidence) -> StrategyFinding:
+    """Compare the strategies that agents hold."""
     violations: list[str] = []
-    equal = 0
-    for number in sorted(rounds):
-        found = list(_faults(number, held[number], agents, complete=number - 1 in ended))
-        found += _miscounted(number, held[number], agents, period_s)
+    rounds = equal = 0
+    for agreement in agreements_of(method, evidence):
+        found = [*_faults(agreement), *_miscounted(agreement)]
         violations += found
-        equal += not found and len(held[number]) == len(agents)
-    return StrategyFinding(len(rounds), equal, tuple(violations))
+        rounds += 1
+        equal += not found and len(agreement.held) == len(agreement.agents)
+    return StrategyFinding(rounds, equal, tuple(violations))
 
 
-def _meetings_ended(events: Sequence[TaskRecord], agents: Sequence[str]) -> set[int]:
-    """Return the rounds whose meeting has ended for every agent."""
-    ended: dict[int, set[str]] = defaultdict(set)
-    for record in events:
-        if record.event.kind is TaskEventKind.MEETING_ENDED:
-            ended[record.event.round].add(record.agent)
-    return {number for number, names in ended.items() if names >= set(agents)}
-
-
-def _faults(number: int, held: _Held, agents: Sequence[str], *, complete: bool) -> Iterator[str]:
-    for agent in agents:
+def _faults(agreement: Agreement) -> Iterator[str]:
+    """Say who holds none, several, or another strategy than the first."""
+    name, held = agreement.name, agreement.held
+    for agent in agreement.agents:
         own = held.get(agent, ())
         if len(own) > 1:
-            yield f"round {number}: {agent} holds {len(own)} strategies"
-        if not own and complete:
-            yield f"round {number}: {agent} holds no strategy"
-    first = next((name for name in agents if held.get(name)), None)
-    for agent in agents:
-        if first is not None and held.get(agent) and held[agent][0] != held[first][0]:
-            yield f"round {number}: {agent} holds another strategy than {first}"
+            yield f"{name}: {agent} holds {len(own)} strategies"
+        if not own and agent in agreement.owing:
+            yield f"{name}: {agent} holds no strategy"
+    first = next((agent for agent in agreement.agents if agent in held), None)
+    for agent in agreement.agents:
+        if first is not None and agent in held and held[agent][0] != held[first][0]:
+            yield f"{name}: {agent} holds another strategy than {first}"
+    for agent in sorted(held.keys() - set(agreement.agents)):
+        yield f"{name}: {agent} holds a strategy, but isn't one of them"
 
 
-def _miscounted(number: int, held: _Held, agents: Sequence[str], period_s: float) -> Iterator[str]:
+def _miscounted(agreement: Agreement) -> Iterator[str]:
     """Say whether t_c and Φ follow from the strategies, and one is there for every agent."""
-    for strategy in {own for values in held.values() for own in values}:
+    name = agreement.name
+    for strategy in dict.fromkeys(own for values in agreement.held.values() for own in values):
         names = [own.agent for own in strategy.strategies]
-        if names != sorted(agents):
-            yield f"round {number}: strategies of {names}, not of each agent in order"
+        if names != sorted(agreement.agents):
+            yield f"{name}: strategies of {names}, not of each agent in order"
             continue
-        arrivals_s = [own.arrival_s for own in strategy.strategies]
-        starts_s = max(*arrivals_s, number * period_s)
+        starts_s = max(agreement.opens_s, *(own.arrival_s for own in strategy.strategies))
         total_s = sum(own.extra_travel_s + starts_s - own.arrival_s for own in strategy.strategies)
         if abs(starts_s - strategy.communication_s) > _SLACK_S:
-            yield f"round {number}: t_c is {strategy.communication_s:.6f} s, not {starts_s:.6f} s"
+            yield f"{name}: t_c is {strategy.communication_s:.6f} s, not {starts_s:.6f} s"
         if abs(total_s - strategy.potential_s) > _SLACK_S:
-            yield f"round {number}: Φ is {strategy.potential_s:.6f} s, not {total_s:.6f} s"
+            yield f"{name}: Φ is {strategy.potential_s:.6f} s, not {total_s:.6f} s"

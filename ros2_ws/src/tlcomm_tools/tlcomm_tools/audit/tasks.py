@@ -13,9 +13,11 @@ from typing import NamedTuple
 import numpy as np
 
 from tlcomm_core.agent.actions import TaskEventKind
+from tlcomm_core.method import Method
 from tlcomm_core.records import TaskRecord
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.scenario.task import task_of
+from tlcomm_tools.audit.evidence import Evidence
 from tlcomm_tools.audit.formula import Tree, count_fulfilled, read_formula, recurring_part
 from tlcomm_tools.audit.progress import Progress, follow
 from tlcomm_tools.audit.tracks import Track
@@ -54,22 +56,16 @@ class TaskFinding:
     violations: tuple[str, ...]
 
 
-def audit_task(
-    scenario: Scenario,
-    agent: str,
-    events: Sequence[TaskRecord],
-    track: Track | None,
-    end_s: float,
-) -> TaskFinding:
+def audit_task(method: Method, evidence: Evidence, agent: str) -> TaskFinding:
     """Recompute one agent's progress: its task's verdict and satisfactions.
 
     Args:
-        scenario: tasks, regions and durations.
-        agent: whose.
-        events: the agent's own, in order of time.
-        track: where it was.
-        end_s: end of the run.
+        method: of coordination, by which a task may take its time.
+        evidence: what was asked for, and what was done.
+        agent: whose task.
     """
+    scenario, events, end_s = evidence.scenario, evidence.events_of(agent), evidence.end_s
+    track = evidence.track_of.get(agent)
     claimed_s = _times_s(events, TaskEventKind.TASK_SATISFIED)
     seen = (*_misplaced(scenario, agent, events, track), *_hasty(scenario, agent, events))
     if any(record.event.kind is TaskEventKind.TASK_CHANGED for record in events):
@@ -91,7 +87,7 @@ def audit_task(
             *seen,
             *_violated(agent, course),
             *_unfounded(agent, claimed_s, satisfied_s, anew_s),
-            *_neglected(scenario, agent, events, course.recurring, gap),
+            *_neglected(method, evidence, agent, course.recurring, gap),
         ),
     )
 
@@ -229,11 +225,7 @@ def _unfounded(
 
 
 def _neglected(
-    scenario: Scenario,
-    agent: str,
-    events: Sequence[TaskRecord],
-    recurring: Tree | None,
-    gap: _Gap | None,
+    method: Method, evidence: Evidence, agent: str, recurring: Tree | None, gap: _Gap | None
 ) -> Iterator[str]:
     """Say when a recurring task went without satisfaction for longer than it may."""
     if recurring is None or gap is None:
@@ -242,16 +234,14 @@ def _neglected(
     # Each attempt that failed may have cost a window.
     failed = sum(
         record.event.is_failed_attempt and gap.from_s < record.stamp_ns * 1e-9 <= until_s
-        for record in events
+        for record in evidence.events_of(agent)
     )
-    spare_s = failed * scenario.communication.period_s
-    if gap.length_s > _patience_s(recurring, scenario, agent) + spare_s:
+    actions = _action_count(recurring, evidence.scenario, agent)
+    # Where agents lead by turns, each has only its share of the time.
+    leaders = len(evidence.agents) if method is Method.ALL_TIME else 1
+    windows = leaders * (actions + _SPARE_WINDOWS) + failed
+    if gap.length_s > windows * evidence.scenario.communication.period_s:
         yield f"{agent}: task not satisfied from {gap.from_s:.3f} s to {until_s:.3f} s"
-
-
-def _patience_s(part: Tree, scenario: Scenario, agent: str) -> float:
-    """Return the longest that φ of □◇φ may go without being fulfilled."""
-    return (_action_count(part, scenario, agent) + _SPARE_WINDOWS) * scenario.communication.period_s
 
 
 def _action_count(tree: Tree, scenario: Scenario, agent: str) -> int:

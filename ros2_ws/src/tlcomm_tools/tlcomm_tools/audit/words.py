@@ -1,7 +1,8 @@
 """The word that an agent's events tell.
 
-``Letter``     the atoms that are true
-``read_word``  a letter for the start, and one for each step
+``Letter``         the atoms that are true
+``read_word``      a letter for the start, and one for each step
+``cell_centre_m``  the centre of the cell that a point is in
 """
 
 import math
@@ -13,7 +14,7 @@ from tlcomm_core.records import TaskRecord
 from tlcomm_core.scenario.model import Scenario, Workspace
 from tlcomm_tools.audit.tracks import Track
 
-__all__ = ["Letter", "read_word"]
+__all__ = ["Letter", "cell_centre_m", "read_word"]
 
 Letter = frozenset[str]
 """The atoms that are true."""
@@ -45,11 +46,17 @@ def read_word(
     return word
 
 
-def _regions_at(workspace: Workspace, x_m: float, y_m: float) -> Letter:
+def cell_centre_m(workspace: Workspace, x_m: float, y_m: float) -> tuple[float, float]:
+    """Return the centre of the cell that a point is in."""
     x_m, y_m = (
         origin_m + (math.floor((own_m - origin_m) / workspace.cell_m) + 0.5) * workspace.cell_m
         for own_m, origin_m in zip((x_m, y_m), workspace.origin_m, strict=True)
     )
+    return x_m, y_m
+
+
+def _regions_at(workspace: Workspace, x_m: float, y_m: float) -> Letter:
+    x_m, y_m = cell_centre_m(workspace, x_m, y_m)
     return frozenset(
         name
         for name, region in workspace.regions.items()

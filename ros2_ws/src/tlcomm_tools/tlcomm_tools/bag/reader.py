@@ -15,6 +15,7 @@ from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_
 from rosbags.typesys.store import Typestore
 
 from tlcomm_core.errors import InputError
+from tlcomm_core.method import Method, parse_method
 from tlcomm_core.records import RunRecords
 from tlcomm_tools import wire
 from tlcomm_tools.bag.container import Channel, Container, read_container
@@ -41,7 +42,8 @@ class RecordedRun:
         records: the run.
         agents: as the bag's connectivity messages list them, or else sorted.
         end_ns: the last time recorded.
-        notes: what the recorder wrote about the run (scenario, method, …); empty in others' bags.
+        notes: what the recorder wrote about the run (scenario, method, solver, seed); empty in
+            others' bags.
         damage: why reading ended early, or "".
     """
 
@@ -50,6 +52,15 @@ class RecordedRun:
     end_ns: int
     notes: dict[str, str]
     damage: str
+
+    @property
+    def method(self) -> Method:
+        """Of coordination, as the notes say; a bag without such a note is of a whole team.
+
+        Raises:
+            InputError: the notes name a method that isn't known.
+        """
+        return parse_method(self.notes.get("method", Method.TEAM.value))
 
 
 def find_files(path: Path) -> tuple[Path, ...]:

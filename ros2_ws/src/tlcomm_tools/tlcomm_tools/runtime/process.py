@@ -62,19 +62,20 @@ def _parser() -> argparse.ArgumentParser:
     roles = parser.add_subparsers(required=True, metavar="ROLE")
     agent = roles.add_parser("agent", help="an agent")
     agent.add_argument("--name", required=True)
-    agent.add_argument("--solver", required=True)
-    agent.add_argument("--method", required=True)
     sim = roles.add_parser("sim", help="world and clock")
     sim.add_argument("--rounds", type=int)
     sim.add_argument("--until", type=float, metavar="S")
     recorder = roles.add_parser("recorder", help="the recorder")
     recorder.add_argument("--bag", type=Path, required=True)
-    recorder.add_argument("--scenario", required=True)
-    for role in (agent, sim):
+    for role in (agent, sim, recorder):
         role.add_argument("--scenario", required=True)
-        role.add_argument("--pace", required=True)
         role.add_argument("--seed", type=int, default=0)
+    for role in (agent, sim):
+        role.add_argument("--pace", required=True)
         role.add_argument("--recorder", action="store_true", help="wait for a recorder")
+    for role in (agent, recorder):
+        role.add_argument("--solver", required=True)
+        role.add_argument("--method", required=True)
     agent.set_defaults(work=_be_agent)
     sim.set_defaults(work=_be_sim)
     recorder.set_defaults(work=_be_recorder)
@@ -125,7 +126,12 @@ def _be_recorder(arguments: argparse.Namespace, notifier: Notifier) -> int:
     from tlcomm_tools.runtime import recorder  # noqa: PLC0415 (as above)
 
     scenario = load_scenario(arguments.scenario)
-    notes = {"scenario": dumps(scenario)}
+    notes = {
+        "scenario": dumps(scenario),
+        "method": arguments.method,
+        "solver": arguments.solver,
+        "seed": str(arguments.seed),
+    }
     measures = scenario.field is not None
     settings = recorder.RecorderSettings(arguments.bag, tuple(scenario.agents), measures, notes)
     return recorder.run(settings, spin, notifier)

@@ -1,10 +1,11 @@
-"""Audit a run from its bag alone: windows from the poses, tasks from the events, agreement."""
+"""Audit a run from its bag alone: what its method promises, tasks, agreement and places."""
 
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import Final
 
 from tlcomm_core.errors import InputError
+from tlcomm_core.method import Method
 from tlcomm_core.scenario.loader import load_scenario, loads
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_tools.audit.findings import Audit, audit_run
@@ -37,7 +38,13 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(options: Namespace) -> Status:
     """Audit the run and show what was found."""
     recorded = read_run(options.run)
-    audit = audit_run(_find_scenario(options, recorded), recorded)
+    audit = audit_run(
+        _find_scenario(options, recorded),
+        _find_method(options, recorded),
+        recorded.records,
+        recorded.end_ns,
+        recorded.damage,
+    )
     if options.json:
         print_json(audit.document())
     else:
@@ -59,9 +66,18 @@ def _find_scenario(options: Namespace, recorded: RecordedRun) -> Scenario:
     )
 
 
+def _find_method(options: Namespace, recorded: RecordedRun) -> Method:
+    try:
+        return recorded.method
+    except InputError as error:
+        raise InputError(f"{str(options.run)!r}: {error}") from None
+
+
 def _format_audit(audit: Audit) -> str:
-    kept = sum(own.satisfied for own in audit.windows)
-    shortest_s = min((own.longest_s for own in audit.windows), default=None)
+    agreed = audit.strategies
+    found = {label: text for own in audit.guarantees for label, text in own.shown.items()}
+    if audit.method is not Method.NONE:
+        found["strategies agreed"] = f"{agreed.equal} of {agreed.rounds} {_agreed_on(audit.method)}"
     rows = [
         (
             own.agent,
@@ -73,10 +89,8 @@ def _format_audit(audit: Audit) -> str:
         for own in audit.tasks
     ]
     parts = [
-        f"{audit.scenario}: audit of {audit.sim_s:.1f} s",
-        f"  windows kept       {kept} of {len(audit.windows)}, by the poses",
-        f"  shortest meeting   {format_number(shortest_s, 3, 's')}",
-        f"  strategies agreed  {audit.strategies.equal} of {audit.strategies.rounds} rounds",
+        f"{audit.scenario}, method {audit.method}: audit of {audit.sim_s:.1f} s",
+        *(f"  {label:17}  {text}" for label, text in found.items()),
         "",
         format_table(("agent", "satisfied", "claimed", "longest gap/s", "task"), rows),
         "",
@@ -89,6 +103,17 @@ def _format_audit(audit: Audit) -> str:
     if len(audit.violations) > _SHOWN_VIOLATIONS:
         shown.append(f"  … and {len(audit.violations) - _SHOWN_VIOLATIONS} more")
     return "\n".join([*parts, "verdict: FAILED", *shown])
+
+
+def _agreed_on(method: Method) -> str:
+    """Return what the method's strategies are for."""
+    match method:
+        case Method.PAIRWISE:
+            return "meetings of pairs"
+        case Method.ALL_TIME:
+            return "turns"
+        case _:
+            return "rounds"
 
 
 def _verdict(own: TaskFinding) -> str:

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Final
 
 from tlcomm_core.errors import InputError
-from tlcomm_core.metrics import RunFacts, result_document
 from tlcomm_core.mission import Mission
+from tlcomm_core.result import RunFacts, result_document
 from tlcomm_core.scenario.loader import dumps, load_scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate
@@ -48,14 +48,14 @@ def run(options: Namespace) -> Status:
     solver = options.method.solver(options.solver)
     solver.check_team(len(scenario.agents))
     rounds, until_s = mission_end(options)
-    limit_s = time_limit_s(scenario, rounds, until_s)
+    limit_s = time_limit_s(scenario, rounds, until_s, options.method)
     mission = Mission(
         Site.from_scenario(scenario), options.seed, rounds, limit_s, solver, options.method
     )
     folder = RunFolder.create(scenario.name, options.method, options.out)
     folder.write_scenario(dumps(scenario))
     begun_s = time.perf_counter()
-    with Progress(rounds, until_s) as progress:
+    with Progress.towards(rounds, limit_s, options.method) as progress:
         left = simulate(mission, lambda sim_ns, meetings: progress.show(seconds(sim_ns), meetings))
     facts = RunFacts(
         method=options.method,

@@ -1,4 +1,4 @@
-"""Tests of ``tlcomm_core.metrics`` on a run made by hand."""
+"""Tests of ``tlcomm_core.result`` on a run made by hand."""
 
 import json
 from dataclasses import replace
@@ -14,11 +14,14 @@ from support.hand_made_run import (
     task,
 )
 from tlcomm_core.agent.actions import TaskEventKind
-from tlcomm_core.metrics import RunFacts, connected_intervals, patience_s, result_document
+from tlcomm_core.method import Method
+from tlcomm_core.metrics.run import run_metrics
 from tlcomm_core.records import RunRecords
+from tlcomm_core.result import RunFacts, result_document
+from tlcomm_core.units import nanoseconds
 from tlcomm_core.world.observation import Connectivity
 
-FACTS = RunFacts("team", "best-response", 3, "lockstep", END_S, 5.0)
+FACTS = RunFacts(Method.TEAM, "best-response", 3, "lockstep", END_S, 5.0)
 
 
 def document(records: RunRecords, facts: RunFacts = FACTS) -> dict:
@@ -90,6 +93,9 @@ def test_a_round_holds_the_papers_quantities() -> None:
     assert own["potential"] == pytest.approx(1.0 + (10.0 - 8.0) + (10.0 - 7.0))
     assert own["initial_potential"] == pytest.approx(own["potential"] + 1.0)
     # 0.5 s of detour each; east is there at 8 s, west at 7 s.
+    assert own["members"] == ["east", "west"]
+    assert own["detour"] == pytest.approx({"east": 0.5, "west": 0.5})
+    assert own["wait"] == pytest.approx({"east": 2.0, "west": 3.0})
     assert own["additional_time"] == pytest.approx({"east": 2.5, "west": 3.5})
     assert sum(own["additional_time"].values()) == pytest.approx(own["potential"])
 
@@ -119,7 +125,8 @@ def test_a_meeting_that_failed_is_null() -> None:
         if not (own.agent == "east" and own.event.kind is TaskEventKind.MEETING_REACHED)
     ]
     own = document(records)["rounds"][0]
-    assert (own["t_c"], own["additional_time"]) == (None, {"east": None, "west": None})
+    nobodys = {"east": None, "west": None}
+    assert (own["t_c"], own["wait"], own["additional_time"]) == (None, nobodys, nobodys)
 
 
 def test_coordination_begins_when_the_team_is_complete() -> None:
@@ -170,83 +177,6 @@ def test_one_satisfaction_has_no_makespan() -> None:
     assert document(records)["agents"]["west"]["makespan_s"] is None
 
 
-def test_a_starving_task_fails() -> None:
-    """A task that isn't satisfied for longer than its patience is in the verdict."""
-    records = hand_made_records()
-    records.tasks = [
-        own
-        for own in records.tasks
-        if own.agent == "east" or own.event.kind is not TaskEventKind.TASK_SATISFIED
-    ]
-    records.connectivity = [Connectivity(0, ((0, 1),), True)]
-    facts = replace(FACTS, sim_s=31.0)
-    assert patience_s(hand_made_scenario(), "west") == 30.0
-    assert document(records, facts)["verdict"] == [
-        "west: task not satisfied from 0.000 s to 31.000 s"
-    ]
-
-
-def test_different_strategies_fail() -> None:
-    """Two agents with different strategies for a round are a disagreement."""
-    records = hand_made_records()
-    first = records.strategies[0]
-    records.strategies[0] = replace(first, strategy=replace(first.strategy, iteration=9))
-    assert document(records)["verdict"] == ["round 1: agents hold different strategies"]
-
-
-def test_a_missing_strategy_fails() -> None:
-    """A round before the last one that an agent holds no strategy for is named with the agent."""
-    records = hand_made_records()
-    records.strategies = [
-        own for own in records.strategies if (own.agent, own.strategy.round) != ("west", 2)
-    ]
-    assert document(records)["verdict"] == ["round 2: not held by west"]
-
-
-def test_who_says_that_it_is_in_doubt_needs_no_strategy() -> None:
-    """An agent that left without the others' confirmations of that very round holds nothing, which
-    fails nothing.
-    """
-    for round_, verdict in ((1, "ok"), (0, ["round 2: not held by west"])):
-        records = hand_made_records()
-        records.strategies = [
-            own for own in records.strategies if (own.agent, own.strategy.round) != ("west", 2)
-        ]
-        detail = f"agreement=doubtful round={round_ + 1}"
-        doubt = task(13.0, "west", TaskEventKind.FAULT, round_=round_, detail=detail)
-        records.tasks = sorted([*records.tasks, doubt], key=lambda own: own.stamp_ns)
-        assert document(records)["verdict"] == verdict
-
-
-def test_faults_and_failures_come_up() -> None:
-    """What broke the run and what an agent reports as a fault are in the verdict."""
-    records = hand_made_records()
-    records.tasks.append(task(25.0, "east", TaskEventKind.FAULT, detail="lost"))
-    facts = replace(FACTS, failures=("west: killed by SIGKILL",))
-    assert document(records, facts)["verdict"] == [
-        "west: killed by SIGKILL",
-        "east: fault at 25.000 s: lost",
-    ]
-
-
-def test_what_agents_cope_with_is_no_failure() -> None:
-    """It isn't in the verdict, and each failed attempt leaves the task a window more."""
-    records = hand_made_records()
-    records.connectivity = [Connectivity(0, ((0, 1),), True)]
-    done = [own for own in records.tasks if own.event.kind is not TaskEventKind.TASK_SATISFIED]
-    failed = task(5.0, "west", TaskEventKind.FAULT, action="pick", detail="action=pick attempt=1")
-    pushed = task(6.0, "west", TaskEventKind.FAULT, detail="displaced_m=0.700")
-    records.tasks = [own for own in done if own.agent == "west"] + [failed, pushed]
-    period_s = hand_made_scenario().communication.period_s
-
-    def complaints(sim_s: float) -> list[str]:
-        verdict = document(records, replace(FACTS, sim_s=sim_s))["verdict"]
-        return [line for line in verdict if line.startswith("west: ")]
-
-    assert complaints(30.0 + period_s) == []
-    assert len(complaints(31.0 + period_s)) == 1
-
-
 def test_no_records_at_all_are_a_document() -> None:
     """A run that recorded nothing still has a result, in valid JSON."""
     facts = replace(FACTS, sim_s=0.0, failures=("sim: died",))
@@ -256,13 +186,27 @@ def test_no_records_at_all_are_a_document() -> None:
     assert json.loads(json.dumps(result, allow_nan=False)) == result
 
 
-def test_the_last_connection_lasts_to_the_end() -> None:
-    """Repeated states don't split an interval, and the last one holds until the end."""
-    seen = [
-        Connectivity(0, (), False),
-        Connectivity(10, ((0, 1),), True),
-        Connectivity(20, ((0, 1),), True),
-        Connectivity(30, (), False),
-        Connectivity(40, ((0, 1),), True),
-    ]
-    assert connected_intervals(seen, 70) == [(10, 30), (40, 70)]
+def test_the_metrics_are_in_the_document() -> None:
+    """All of them, as ``metrics.run`` gives them; the agents' figures are among them."""
+    records = hand_made_records()
+    result = document(records)
+    end_ns = nanoseconds(END_S)
+    assert (
+        result["metrics"]
+        == run_metrics(hand_made_scenario(), records, Method.TEAM, end_ns).document()
+    )
+    assert (
+        result["metrics"]["agents"]["west"]["distance_m"] == result["agents"]["west"]["distance_m"]
+    )
+
+
+def test_turns_are_no_rounds() -> None:
+    """A method without meetings has no rounds, but windows."""
+    result = document(hand_made_records(), replace(FACTS, method=Method.ALL_TIME))
+    assert result["rounds"] == []
+    assert result["communication"]["satisfied"] == 3
+
+
+def test_a_round_counts_once_it_has_begun() -> None:
+    """All were there at 8 s, but the run was over before the window opened."""
+    assert document(hand_made_records(), replace(FACTS, sim_s=9.0))["rounds"] == []

@@ -1,0 +1,75 @@
+"""What an audit looks at: the records of a run, and what follows from them alone.
+
+``Evidence``  a run as it was
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from tlcomm_core.records import RunRecords, TaskRecord
+from tlcomm_core.scenario.model import Scenario
+from tlcomm_tools.audit.links import Interval, WindowFinding, judge_windows, team_intervals
+from tlcomm_tools.audit.tracks import Track, build_tracks
+
+__all__ = ["Evidence"]
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """A run as it was.
+
+    Attributes:
+        scenario: what was asked for.
+        records: what was recorded.
+        end_s: end of the run.
+        track_of: where each agent was; nothing of agents without odometry.
+        faults: what is wrong with the odometry, a line each.
+    """
+
+    scenario: Scenario
+    records: RunRecords
+    end_s: float
+    track_of: dict[str, Track]
+    faults: tuple[str, ...]
+
+    @classmethod
+    def gather(cls, scenario: Scenario, records: RunRecords, end_s: float) -> "Evidence":
+        """Return what a run's records tell."""
+        tracks, faults = build_tracks(records.odometry, tuple(scenario.agents), end_s)
+        track_of = {track.agent: track for track in tracks}
+        return cls(scenario, records, end_s, track_of, tuple(faults))
+
+    @property
+    def agents(self) -> tuple[str, ...]:
+        """All of them, in the scenario's order."""
+        return tuple(self.scenario.agents)
+
+    @cached_property
+    def connected(self) -> list[Interval]:
+        """When the whole team was connected, ascending."""
+        return self._together(self.agents)
+
+    @cached_property
+    def windows(self) -> list[WindowFinding]:
+        """Every window's outcome for the whole team."""
+        return self._judge(self.connected)
+
+    def windows_of(self, agents: Sequence[str]) -> list[WindowFinding]:
+        """Return every window's outcome for a part of the team, by itself."""
+        return self._judge(self._together(agents))
+
+    def events_of(self, agent: str) -> list[TaskRecord]:
+        """Return an agent's own events, in order of time."""
+        return [record for record in self.records.tasks if record.agent == agent]
+
+    def _together(self, agents: Sequence[str]) -> list[Interval]:
+        if not self.track_of.keys() >= set(agents):
+            return []
+        walls = self.scenario.workspace.obstacles_m if self.scenario.radio.line_of_sight else ()
+        tracks = [self.track_of[agent] for agent in agents]
+        return team_intervals(tracks, self.scenario.communication.range_m, walls)
+
+    def _judge(self, intervals: Sequence[Interval]) -> list[WindowFinding]:
+        links = self.scenario.communication
+        return judge_windows(intervals, links.period_s, links.duration_s, self.end_s)
