@@ -123,6 +123,16 @@ def test_nobodys_additional_time_is_left_out() -> None:
     assert (known.round, known.by_agent_s) == (2, {"east": 0.0})
 
 
+def test_meetings_of_a_round_count_together() -> None:
+    """Pairs meet apart, and an agent may meet twice."""
+    rounds = [
+        {"round": 1, "additional_time": {"a": 1.0, "b": 2.0}},
+        {"round": 1, "additional_time": {"b": 0.5, "c": 4.0}},
+    ]
+    (both,) = reduction.additional_times(rounds)
+    assert both.by_agent_s == {"a": 1.0, "b": 2.5, "c": 4.0}
+
+
 def test_estimates_of_one_exchange_are_one_step() -> None:
     """Where it led to counts; what doesn't change is no step."""
     series = reduction.estimates(
