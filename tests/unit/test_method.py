@@ -18,6 +18,12 @@ def test_an_unknown_one_is_named() -> None:
         parse_method("mesh")
 
 
+def test_some_meet_in_windows() -> None:
+    """Their rounds are windows; pairs and turns are counted by themselves, and nobody's not."""
+    windowed = {own for own in Method if own.meets_in_windows}
+    assert windowed == {Method.TEAM, Method.STATIC, Method.ORACLE}
+
+
 def test_the_choice_of_a_solver_is_the_teams_only() -> None:
     """The yardstick and pairs are solved exactly; where nothing is sought, nobody proposes."""
     assert Method.TEAM.solver(COALITION) is COALITION

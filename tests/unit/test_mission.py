@@ -1,9 +1,13 @@
 """What is run."""
 
+import pytest
+
 from support.hall import STARTS, hall
+from tlcomm_core.method import Method
 from tlcomm_core.mission import Mission, create_world
 from tlcomm_core.scenario.model import Noise
 from tlcomm_core.scenario.site import Site
+from tlcomm_core.units import nanoseconds
 from tlcomm_core.world.lockstep import StopRule
 
 
@@ -13,6 +17,16 @@ def test_the_meeting_at_the_start_is_round_0() -> None:
     assert Mission(site, 0, 3, None).stop == StopRule(4, None)
     assert Mission(site, 0, 0, 2.5).stop == StopRule(1, 2_500_000_000)
     assert Mission(site, 0, None, None).stop == StopRule(None, None)
+
+
+@pytest.mark.parametrize("method", [Method.PAIRWISE, Method.ALL_TIME, Method.NONE])
+def test_where_no_windows_are_met_in_the_last_ones_end_is_the_end(method: Method) -> None:
+    """The windows 0 to N are over then, however often the team has met; or it is to end before."""
+    site = hall(1)
+    period_ns = nanoseconds(site.scenario.communication.period_s)
+    assert Mission(site, 0, 3, None, method=method).stop == StopRule(None, 4 * period_ns)
+    assert Mission(site, 0, 3, 2.5, method=method).stop == StopRule(None, 2_500_000_000)
+    assert Mission(site, 0, None, 2.5, method=method).stop == StopRule(None, 2_500_000_000)
 
 
 def test_the_world_is_the_scenarios() -> None:

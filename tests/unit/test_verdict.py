@@ -7,6 +7,7 @@ from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.method import Method
 from tlcomm_core.records import RunRecords, StrategyRecord
 from tlcomm_core.result import RunFacts, result_document
+from tlcomm_core.units import NANOSECONDS_PER_SECOND
 from tlcomm_core.verdict import failures, patience_s
 from tlcomm_core.world.observation import Connectivity
 
@@ -134,3 +135,26 @@ def test_a_window_missed_by_a_pair_fails_pairs_only() -> None:
     assert failures(scenario, records, Method.NONE, (), end_ns) == []
     assert failures(scenario, records, Method.PAIRWISE, (), end_ns) == []
     assert failures(scenario, records, Method.PAIRWISE, (), 20_000_000_000) == [missed]
+
+
+def test_a_break_fails_where_there_must_be_none() -> None:
+    """The first is told, with its times; windows alone don't say that all is well."""
+    records = hand_made_records()
+    records.connectivity = [
+        Connectivity(second * NANOSECONDS_PER_SECOND, ((0, 1),), connected)
+        for second, connected in ((0, True), (6, False), (8, True), (10, False), (11, True))
+    ]
+    facts = replace(FACTS, method=Method.ALL_TIME)
+    told = "not connected from 6.000 s to 8.000 s"
+    assert document(records, facts)["verdict"] == [told]
+    assert document(records)["verdict"] == "ok"
+    del records.connectivity[1:]
+    assert document(records, facts)["verdict"] == "ok"
+    records.connectivity = []
+    assert document(records, facts)["verdict"][-1].startswith("not connected from 0.000 s")
+
+
+def test_who_takes_turns_may_wait_for_all_others() -> None:
+    """With two agents twice as long."""
+    scenario = hand_made_scenario()
+    assert patience_s(scenario, "west", Method.ALL_TIME) == 2.0 * patience_s(scenario, "west")

@@ -1,7 +1,11 @@
 """Tests of ``tlcomm_tools.progress``."""
 
+import math
 from io import StringIO
 
+import pytest
+
+from tlcomm_core.method import Method
 from tlcomm_tools.progress import Progress
 
 
@@ -54,3 +58,21 @@ def test_nothing_shown_leaves_nothing() -> None:
     with Progress(5, None, stream, FakeClock()) as progress:
         progress.show(1.0, 0)
     assert stream.getvalue() == ""
+
+
+@pytest.mark.parametrize(
+    ("method", "rounds", "text"),
+    [
+        (Method.TEAM, 10, "round 2/10"),
+        (Method.ALL_TIME, 10, "round 2 "),
+        (Method.TEAM, None, "round 2 "),
+    ],
+)
+def test_only_windows_are_counted(
+    method: Method, rounds: int | None, text: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Turns and pairs' meetings are as many as there happen to be: there time is the measure."""
+    progress = Progress.towards(rounds, 60.0, method)
+    progress._shown_s = -math.inf
+    progress.show(30.0, 3)
+    assert capsys.readouterr().err.startswith(text)

@@ -39,6 +39,16 @@ class Method(StrEnum):
                 return BEST_RESPONSE
 
     @property
+    def meets_in_windows(self) -> bool:
+        """Whether its rounds are windows: the team meets in each as a whole, once."""
+        return self in (Method.TEAM, Method.STATIC, Method.ORACLE)
+
+    @property
+    def goes_together(self) -> bool:
+        """Whether the team goes everywhere as one, by one way at one speed."""
+        return self is Method.ALL_TIME
+
+    @property
     def keeps_windows(self) -> bool:
         """Whether it promises that the team is connected for D_c in each window."""
         return self not in (Method.PAIRWISE, Method.NONE)

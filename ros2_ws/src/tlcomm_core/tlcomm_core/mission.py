@@ -26,7 +26,8 @@ class Mission:
     Attributes:
         site: the scenario.
         seed: of all that is random.
-        rounds: the run ends D_c after the meeting of this round; or ``None``.
+        rounds: the run ends D_c after the meeting of this round, or with its window if the method
+            doesn't meet in windows; or ``None``.
         until_s: the run ends at this simulated time; or ``None``.
         solver: of the rounds, as far as the method leaves the choice.
         method: of coordination.
@@ -42,10 +43,12 @@ class Mission:
     @property
     def stop(self) -> StopRule:
         """When the run is over; the meeting at t = 0 is round 0."""
-        return StopRule(
-            meetings=None if self.rounds is None else self.rounds + 1,
-            until_ns=None if self.until_s is None else nanoseconds(self.until_s),
-        )
+        ends_s = [] if self.until_s is None else [self.until_s]
+        meetings = None if self.rounds is None else self.rounds + 1
+        if meetings is not None and not self.method.meets_in_windows:
+            ends_s.append(meetings * self.site.scenario.communication.period_s)
+            meetings = None
+        return StopRule(meetings, nanoseconds(min(ends_s)) if ends_s else None)
 
 
 def create_world(site: Site, seed: int) -> World:

@@ -13,7 +13,7 @@ from typing import Final
 from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.game.strategy import TeamStrategy
 from tlcomm_core.method import Method
-from tlcomm_core.metrics.connection import pair_windows_of
+from tlcomm_core.metrics.connection import connected_intervals, pair_windows_of
 from tlcomm_core.metrics.satisfaction import satisfied_ns
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
@@ -38,7 +38,8 @@ def failures(
 ) -> list[str]:
     """Return what is wrong with a run: starving tasks, disagreements, faults, missed windows.
 
-    A missed window is wrong if the method promises to keep it: by the whole team, or by a pair.
+    A missed window is wrong if the method promises to keep it, by the whole team or by a pair; any
+    break of the connection if it promises that there is none.
 
     Args:
         scenario: what was run.
@@ -53,17 +54,19 @@ def failures(
     return [
         *(_missed(window, duration_s) for window in missed),
         *by_pairs,
-        *_unsatisfied(scenario, records, end_ns),
+        *(_parted(records, end_ns) if method.goes_together else ()),
+        *_unsatisfied(scenario, records, method, end_ns),
         *_disagreements(scenario, records),
         *_faults(records),
     ]
 
 
-def patience_s(scenario: Scenario, agent: str) -> float:
+def patience_s(scenario: Scenario, agent: str, method: Method = Method.TEAM) -> float:
     """Return the longest that an agent's task may go without being satisfied, if nothing fails.
 
     Every window leaves time for at least one more action of the task; two windows are spare. A
-    given automaton is taken to need an action per state.
+    given automaton is taken to need an action per state. Where all lead by turns, everything takes
+    as many times longer as there are agents.
     """
     own = scenario.agents[agent]
     if own.automaton is not None:
@@ -71,7 +74,8 @@ def patience_s(scenario: Scenario, agent: str) -> float:
     else:
         words = re.findall(r"\w+", own.whole_task)
         actions = sum(word in scenario.actions_of(agent) for word in words)
-    return (actions + _SPARE_WINDOWS) * scenario.communication.period_s
+    leaders = len(scenario.agents) if method.goes_together else 1
+    return leaders * (actions + _SPARE_WINDOWS) * scenario.communication.period_s
 
 
 def _failed_ns(agent: str, records: RunRecords) -> Iterator[int]:
@@ -90,6 +94,16 @@ def _missed(window: Window, duration_s: float, by: str = "") -> str:
     )
 
 
+def _parted(records: RunRecords, end_ns: int) -> Iterator[str]:
+    """Say when the team was first not connected, and until when."""
+    connected_ns = connected_intervals(records.connectivity, end_ns)
+    moments_ns = [0, *(moment for interval in connected_ns for moment in interval), end_ns]
+    for parted_ns, joined_ns in zip(moments_ns[::2], moments_ns[1::2], strict=True):
+        if parted_ns < joined_ns:
+            yield f"not connected from {seconds(parted_ns):.3f} s to {seconds(joined_ns):.3f} s"
+            return
+
+
 def _missed_by_pairs(scenario: Scenario, records: RunRecords, end_ns: int) -> Iterator[str]:
     duration_s = scenario.communication.duration_s
     for pair, windows in pair_windows_of(scenario, records, end_ns).items():
@@ -98,7 +112,9 @@ def _missed_by_pairs(scenario: Scenario, records: RunRecords, end_ns: int) -> It
                 yield _missed(window, duration_s, f" by {' and '.join(pair.members)}")
 
 
-def _unsatisfied(scenario: Scenario, records: RunRecords, end_ns: int) -> Iterator[str]:
+def _unsatisfied(
+    scenario: Scenario, records: RunRecords, method: Method, end_ns: int
+) -> Iterator[str]:
     """Say whose task went unsatisfied too long; each failed attempt may have cost a window.
 
     How long another task than the scenario's may take isn't known.
@@ -108,7 +124,7 @@ def _unsatisfied(scenario: Scenario, records: RunRecords, end_ns: int) -> Iterat
         moments_ns = [0, *satisfied_ns(agent, records), end_ns]
         start_ns, stop_ns = max(pairwise(moments_ns), key=lambda gap: gap[1] - gap[0])
         failed = sum(start_ns < time_ns <= stop_ns for time_ns in _failed_ns(agent, records))
-        limit_s = patience_s(scenario, agent) + failed * scenario.communication.period_s
+        limit_s = patience_s(scenario, agent, method) + failed * scenario.communication.period_s
         if stop_ns - start_ns > nanoseconds(limit_s):
             yield (
                 f"{agent}: task not satisfied from {seconds(start_ns):.3f} s "

@@ -10,6 +10,8 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import Self, TextIO
 
+from tlcomm_core.method import Method
+
 __all__ = ["Bar", "Progress"]
 
 _BAR_CELLS = 24
@@ -97,6 +99,19 @@ class Progress(Bar):
         super().__init__(stream, clock)
         self._rounds = rounds
         self._until_s = until_s
+
+    @classmethod
+    def towards(cls, rounds: int | None, limit_s: float, method: Method) -> Self:
+        """Show progress towards the meeting of a round or, where none is counted, a time.
+
+        Args:
+            rounds: as asked for, or ``None``.
+            limit_s: when the run ends at the latest (simulated time).
+            method: of coordination.
+        """
+        if rounds is None or not method.meets_in_windows:
+            return cls(None, limit_s)
+        return cls(rounds, None)
 
     def show(self, sim_s: float, meetings_ended: int) -> None:
         """Show how far the run is, if it is time to."""

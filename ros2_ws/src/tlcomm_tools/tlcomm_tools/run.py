@@ -121,9 +121,9 @@ def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
     common = (*scenario, *seed, "--pace", str(options.pace), "--recorder")
     solver, method = options.method.solver(options.solver).name, options.method.value
     coordination = ("--solver", solver, "--method", method)
-    limit_s = time_limit_s(options.scenario, options.rounds, options.until_s)
+    limit_s = time_limit_s(options.scenario, options.rounds, options.until_s, options.method)
     end: tuple[str, ...] = ("--until", repr(limit_s))
-    if options.rounds is not None:
+    if options.rounds is not None and options.method.meets_in_windows:
         end += ("--rounds", str(options.rounds))
 
     def spec(name: str, *arguments: str, stop_last: bool = False) -> ProcessSpec:

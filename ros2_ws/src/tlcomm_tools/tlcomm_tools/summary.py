@@ -76,8 +76,7 @@ def _format_metrics(team: Mapping[str, Any]) -> list[str]:
         ),
         "deviation_max": (
             f"deviation        {told('deviation_mean', 3, '')} on average, "
-            f"at most {told('deviation_max', 3, '')}, "
-            f"{told('deviation_settled_max', 3, '')} once settled"
+            f"at most {told('deviation_max', 3, '')}"
         ),
     }
     return [f"  {line}" for key, line in lines.items() if team[key] is not None]

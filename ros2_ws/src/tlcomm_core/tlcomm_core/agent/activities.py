@@ -4,6 +4,7 @@
 ``Acting``   at a step's region
 """
 
+import math
 from dataclasses import dataclass
 
 from tlcomm_core.agent.controller import Follower
@@ -23,6 +24,8 @@ class Driving:
         follower: drives it.
         meeting: where it leads; ``None`` for the next step.
         control_s: when the follower is to be asked again.
+        ends_s: when it ends at the earliest.
+        is_early: it has come to the end before that.
         displaced_m: how far something has put the agent off its way.
         is_closed: the map has closed the way since.
     """
@@ -31,6 +34,8 @@ class Driving:
     follower: Follower
     meeting: Strategy | None
     control_s: float
+    ends_s: float = -math.inf
+    is_early: bool = False
     displaced_m: float | None = None
     is_closed: bool = False
 

@@ -23,6 +23,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
+from tlcomm_core.agent.convoy import AgreedLeg
 from tlcomm_core.agent.events import TaskChanged
 from tlcomm_core.agent.ways import Ways
 from tlcomm_core.errors import LocalMisuseError
@@ -64,6 +65,7 @@ class Itinerary:
         self._has_reached = False
         self._retries: Final = retries
         self._meeting: Strategy | None = None
+        self._agreed_leg: AgreedLeg | None = None
         self._meeting_s = 0.0
         self._failures = 0
         self._is_delayed = False
@@ -79,14 +81,18 @@ class Itinerary:
         """Travel times on the map as it is."""
         return self._ways.travel
 
-    def agree(self, meeting: Strategy, meeting_s: float) -> None:
+    def agree(
+        self, meeting: Strategy, meeting_s: float, agreed_leg: AgreedLeg | None = None
+    ) -> None:
         """Take the agent's own part in what the team has agreed on.
 
         Args:
             meeting: where to be, and after which step.
             meeting_s: t_c, when the team is to be there.
+            agreed_leg: how to go first, if that is agreed too.
         """
         self._meeting = meeting
+        self._agreed_leg = agreed_leg
         self._meeting_s = meeting_s
         self._failures = 0
         self._is_delayed = False
@@ -140,6 +146,7 @@ class Itinerary:
     def reach_meeting(self) -> TaskChanged | None:
         """Do no more until the next agreement; begin the other plan, if any, and return it."""
         self._has_reached = True
+        self._agreed_leg = None
         change, self._change = self._change, None
         if change is not None:
             self.task = change.task
@@ -221,14 +228,26 @@ class Itinerary:
 
         It begins with the way out of what the task forbids or the map has closed, if the agent is
         there. Where the place of meeting can't be reached, it leads to the nearest that can; it is
-        empty if none can.
+        empty if none can. A leg that is agreed comes before all, where it begins, as far as it is
+        free.
         """
+        agreed = self._agreed_leg
+        if agreed is not None and agreed.start == pose and self._is_free(agreed):
+            return agreed.leg
         target = self._target(pose, meeting)
         if target is None:
             return Leg((), 0.0, 0.0, pose)
-        if meeting is None:
+        # Those who agreed to go together find the same way anew.
+        if meeting is None or agreed is not None:
             return self._ways.leg_to(pose, target)
         return self._ways.leg_from(pose, target)
+
+    def hours(self, leg: Leg) -> tuple[float, float]:
+        """Return when a leg begins and ends at the earliest, as far as that is agreed."""
+        agreed = self._agreed_leg
+        if agreed is None or agreed.leg is not leg:
+            return -math.inf, -math.inf
+        return agreed.begins_s, agreed.ends_s
 
     def is_cut_off(self, pose: Pose) -> bool:
         """Return whether the agreed place of meeting can't be reached."""
@@ -260,6 +279,11 @@ class Itinerary:
         onward = self.leg(there.arrival, self._agreed())
         needed_s = there.duration_s + self.step.duration_s + onward.duration_s
         return now_s + needed_s <= self._meeting_s + _ROUNDING_S
+
+    def _is_free(self, agreed: AgreedLeg) -> bool:
+        """Return whether an agreed leg leads past all obstacles of the present map."""
+        start_m = (agreed.start.x_m, agreed.start.y_m)
+        return self.travel.grid.is_clear([start_m, *agreed.leg.waypoints_m])
 
     def _agreed(self) -> Strategy:
         if self._meeting is None:

@@ -192,7 +192,8 @@ class Journey:
             settings.position_tolerance_m,
             settings.pacing,
         )
-        self._activity = Driving(leg, follower, meeting, now_s)
+        begins_s, ends_s = self.itinerary.hours(leg)
+        self._activity = Driving(leg, follower, meeting, max(now_s, begins_s), ends_s)
         if meeting is None or not self.itinerary.is_cut_off(self.pose):
             return []
         apart_m = leg.arrival.distance_m(meeting.x_m, meeting.y_m)
@@ -210,8 +211,16 @@ class Journey:
         if control is not None:
             drive, driving.control_s = control
             return [drive]
+        return self._end_leg(driving, pose, now_s)
+
+    def _end_leg(self, driving: Driving, pose: Pose, now_s: float) -> list[Action]:
+        """Stop, and go on to what the leg led to, as soon as that is agreed."""
+        moves = bool(driving.leg.waypoints_m) and not driving.is_early
+        actions: list[Action] = [Drive(0.0, 0.0)] if moves else []
+        if not is_due(driving.ends_s, now_s):
+            driving.is_early, driving.control_s = True, driving.ends_s
+            return actions
         self.pose = self._taken_for(driving.leg.arrival, pose)
-        actions: list[Action] = [Drive(0.0, 0.0)] if driving.leg.waypoints_m else []
         if driving.meeting is None:
             return [*actions, *self._begin_step(now_s)]
         self._activity, self._arrived = None, driving.meeting

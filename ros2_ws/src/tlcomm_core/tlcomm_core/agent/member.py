@@ -1,19 +1,21 @@
 """One agent as a shell holds it: brain, radio and estimate, on integer nanoseconds.
 
-``Member``   the same in one process and over ROS
-``create``   a member from a scenario
-``team_of``  what all its members know
+``Member``       the same in one process and over ROS
+``create``       a member from a scenario
+``team_of``      what all its members know
+``check_start``  whether they can begin where they start
 """
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tlcomm_core.agent.actions import Action, CountIgnored
-from tlcomm_core.agent.avoidance import travel_of
+from tlcomm_core.agent.avoidance import joint_travel, travel_of
 from tlcomm_core.agent.brain import Brain
 from tlcomm_core.agent.channel import Channel
 from tlcomm_core.agent.charts import Charts
@@ -27,11 +29,11 @@ from tlcomm_core.agent.events import (
     TimePassed,
 )
 from tlcomm_core.agent.faults import ActionFaults, fault_rng
-from tlcomm_core.agent.methods import brain_for, rules_for
+from tlcomm_core.agent.methods import brain_for, rounds_for, rules_for
 from tlcomm_core.agent.planner import Planner, local_plan, plan_for
 from tlcomm_core.agent.radio import OUT_OF_RANGE, UNSEEN, Radio
-from tlcomm_core.agent.rounds import MeetingRounds
 from tlcomm_core.agent.settings import Settings
+from tlcomm_core.agent.turn_rounds import check_straights
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.game.solver import DEFAULT, Solver
 from tlcomm_core.geometry import Pose
@@ -41,12 +43,13 @@ from tlcomm_core.protocol.messages import EstimateExchange, TeamMessage
 from tlcomm_core.protocol.negotiation import Phase
 from tlcomm_core.protocol.reception import Reception
 from tlcomm_core.protocol.team import OnInfeasible, Team
+from tlcomm_core.protocol.turns import TurnTeam, pause_s
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.travel import TravelTimes
 
-__all__ = ["Member", "create", "team_of"]
+__all__ = ["Member", "check_start", "create", "team_of"]
 
 # What a periodic controller may lose at the end of a turn or a straight: the rest of its period
 # and a late timer.
@@ -225,7 +228,8 @@ class Member:
 def team_of(site: Site, solver: Solver = DEFAULT, method: Method = Method.TEAM) -> Team:
     """Return what every member of the scenario's team knows of it."""
     communication = site.scenario.communication
-    return Team(
+    kind = TurnTeam if method.goes_together else Team
+    team = kind(
         members=frozenset(site.scenario.agents),
         planned_range_m=site.planned_range_m,
         period_s=communication.period_s,
@@ -236,6 +240,25 @@ def team_of(site: Site, solver: Solver = DEFAULT, method: Method = Method.TEAM) 
         clearance_m=site.planned_clearance_m,
         solver=method.solver(solver),
     )
+    if not isinstance(team, TurnTeam):
+        return team
+    radio, latency_s = site.scenario.radio, communication.hop_latency_s
+    return replace(
+        team,
+        duration_s=pause_s(team, latency_s, radio.jitter_s, radio.loss),
+        off_m=2.0 * site.scenario.position_tolerance_m,
+    )
+
+
+def check_start(site: Site, method: Method) -> None:
+    """See whether a method can begin where the agents start.
+
+    Raises:
+        PlanningError: a team that stays together can't come together.
+    """
+    if method.goes_together:
+        travel = joint_travel(site, Atlas(site.grid, site.region_discs))
+        check_straights(site.scenario, team_of(site, method=method), travel.grid)
 
 
 def create(
@@ -265,8 +288,12 @@ def create(
     scenario = site.scenario
     allowance_s = _ALLOWANCE_S[pacing]
     tolerance_m = scenario.drive_of(name).position_tolerance_m
-    travel = travel_of(name, site, atlas, allowance_s)
+    if method.goes_together:
+        travel = joint_travel(site, atlas, allowance_s)
+    else:
+        travel = travel_of(name, site, atlas, allowance_s)
     team = team_of(site, solver, method)
+    check_start(site, method)
     # Members' plans lead through regions: with this done, the first round takes no longer than
     # later ones.
     travel.prepare(site.region_location.values())
@@ -283,7 +310,7 @@ def create(
             travel=travel,
             team=team,
             planner=planner,
-            rounds=MeetingRounds(charts, team, allowance_s),
+            rounds=rounds_for(team, charts, allowance_s),
             position_tolerance_m=tolerance_m,
             most_deviation_m=max(_OFF_CELLS * site.grid.cell_m, _OFF_TOLERANCES * tolerance_m),
             pacing=pacing,

@@ -11,10 +11,11 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar
 
-from tlcomm_core.agent.avoidance import avoided_regions, obstruction, travel_of
+from tlcomm_core.agent.avoidance import avoided_regions, joint_travel, obstruction, travel_of
 from tlcomm_core.errors import InputError, PlanningError
 from tlcomm_core.geometry import Pose
 from tlcomm_core.ltl import parse
+from tlcomm_core.method import Method
 from tlcomm_core.planning.explanation import Explanation, explain_plan
 from tlcomm_core.planning.lasso import SUFFIX_FIRST, Objective
 from tlcomm_core.planning.plan import LocalPlan
@@ -151,7 +152,7 @@ def plan_for(
     return plan
 
 
-def check_tasks(site: Site) -> None:
+def check_tasks(site: Site, method: Method = Method.TEAM) -> None:
     """Make every agent's plan, to see that there is one.
 
     Raises:
@@ -159,4 +160,5 @@ def check_tasks(site: Site) -> None:
     """
     atlas = Atlas(site.grid, site.region_discs)
     for name in site.scenario.agents:
-        local_plan(name, site, travel_of(name, site, atlas))
+        travel = joint_travel(site, atlas) if method.goes_together else travel_of(name, site, atlas)
+        local_plan(name, site, travel)

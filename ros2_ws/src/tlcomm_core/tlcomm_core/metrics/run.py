@@ -11,7 +11,7 @@ from typing import Final, TypeVar
 from tlcomm_core.method import Method
 from tlcomm_core.metrics.connection import windows_of
 from tlcomm_core.metrics.coordination import coordination_wall_s, indexed, solve_wall_s, timings_of
-from tlcomm_core.metrics.deviation import SETTLED_PERIODS, Deviation, deviation_of_team, deviations
+from tlcomm_core.metrics.deviation import Deviation, deviation_of_team, deviations
 from tlcomm_core.metrics.distance import distance_m
 from tlcomm_core.metrics.information_age import InformationAge, information_age
 from tlcomm_core.metrics.lost_time import LostTime, lost_time
@@ -20,7 +20,7 @@ from tlcomm_core.metrics.satisfaction import makespan_s, mean_cycle_s, satisfied
 from tlcomm_core.metrics.summary import AgentMetrics, Computing, RunMetrics, TeamMetrics
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
-from tlcomm_core.units import nanoseconds, seconds
+from tlcomm_core.units import seconds
 from tlcomm_core.windows import Window
 
 __all__ = ["run_metrics"]
@@ -49,22 +49,21 @@ class _Run:
     """What the figures of all agents are taken from.
 
     Attributes:
-        held: the meetings agreed on.
-        met: those of them that took place.
+        agreed: what was agreed on: meetings or, by a method without any, turns.
+        met: the meetings that took place.
         windows: all that are decided.
-        settled: deviations after the start.
     """
 
     scenario: Scenario
     records: RunRecords
     end_ns: int
-    held: tuple[Meeting, ...]
+    has_meetings: bool
+    agreed: tuple[Meeting, ...]
     met: tuple[Meeting, ...]
     lost: Mapping[str, LostTime]
     windows: tuple[Window, ...]
     ages: InformationAge | None
     deviations: Mapping[str, Deviation]
-    settled: Mapping[str, Deviation]
 
     @property
     def end_s(self) -> float:
@@ -73,19 +72,19 @@ class _Run:
 
     @classmethod
     def of(cls, scenario: Scenario, records: RunRecords, method: Method, end_ns: int) -> "_Run":
-        settled_ns = nanoseconds(SETTLED_PERIODS * scenario.communication.period_s)
-        held = meetings(scenario, records) if method.has_meetings else ()
+        agreed = meetings(scenario, records)
+        met = [own for own in agreed if method.has_meetings and own.took_place_by(seconds(end_ns))]
         return cls(
             scenario=scenario,
             records=records,
             end_ns=end_ns,
-            held=held,
-            met=tuple(meeting for meeting in held if meeting.took_place_by(seconds(end_ns))),
+            has_meetings=method.has_meetings,
+            agreed=agreed,
+            met=tuple(met),
             windows=windows_of(scenario, records, end_ns),
             lost=lost_time(scenario, records),
             ages=information_age(records.connectivity, len(scenario.agents), end_ns),
             deviations=deviations(scenario, records.estimates, end_ns),
-            settled=deviations(scenario, records.estimates, end_ns, settled_ns),
         )
 
 
@@ -114,8 +113,7 @@ class _Costs:
 def _agent_metrics(run: _Run, name: str) -> AgentMetrics:
     moments_ns = satisfied_ns(name, run.records)
     period_s = run.scenario.communication.period_s
-    lost = run.lost.get(name)
-    deviation, settled = run.deviations.get(name), run.settled.get(name)
+    lost, deviation = run.lost.get(name), run.deviations.get(name)
     number = list(run.scenario.agents).index(name)
     return AgentMetrics(
         tasks_satisfied=len(moments_ns),
@@ -127,12 +125,11 @@ def _agent_metrics(run: _Run, name: str) -> AgentMetrics:
         own_work_s=None if lost is None else lost.own_work_s[-1],
         lost_s=None if lost is None else lost.lost_s[-1],
         lost_per_window_s=None if lost is None else lost.per_window_s(period_s),
-        lost_per_meeting_s=None if lost is None else lost.per_meeting_s,
+        lost_per_meeting_s=lost.per_meeting_s if lost and run.has_meetings else None,
         information_age_mean_s=None if run.ages is None else run.ages.mean_of_s(number),
         information_age_max_s=None if run.ages is None else run.ages.most_of_s(number),
         deviation_mean=None if deviation is None else deviation.mean,
         deviation_max=None if deviation is None else deviation.most,
-        deviation_settled_max=None if settled is None else settled.most,
         distance_m=distance_m(name, run.records),
         messages=run.records.messages_sent.get(name),
         bytes=run.records.bytes_sent.get(name),
@@ -143,7 +140,7 @@ def _team_metrics(run: _Run, agents: Sequence[AgentMetrics]) -> TeamMetrics:
     kept = [window.satisfied for window in run.windows]
     sizes = [len(meeting.members) for meeting in run.met]
     team = len(agents)
-    deviation, settled = deviation_of_team(run.deviations), deviation_of_team(run.settled)
+    deviation = deviation_of_team(run.deviations)
     return TeamMetrics(
         tasks_satisfied=sum(own.tasks_satisfied for own in agents),
         tasks_per_hour=_sum(own.tasks_per_hour for own in agents),
@@ -165,7 +162,6 @@ def _team_metrics(run: _Run, agents: Sequence[AgentMetrics]) -> TeamMetrics:
         information_age_max_s=_max(own.information_age_max_s for own in agents),
         deviation_mean=None if deviation is None else deviation.mean,
         deviation_max=None if deviation is None else deviation.most,
-        deviation_settled_max=None if settled is None else settled.most,
         distance_m=sum(own.distance_m for own in agents),
         messages=_sum(own.messages for own in agents),
         bytes=_sum(own.bytes for own in agents),
@@ -174,9 +170,9 @@ def _team_metrics(run: _Run, agents: Sequence[AgentMetrics]) -> TeamMetrics:
 
 def _computing(run: _Run) -> Computing:
     index = indexed(run.records.timings)
-    agreed = [(timings_of(meeting, index), len(meeting.members)) for meeting in run.held]
-    solve_s = [solve_wall_s(own) for own, _ in agreed]
-    coordination_s = [coordination_wall_s(own, members) for own, members in agreed]
+    known = [(timings_of(own, index), len(own.members)) for own in run.agreed]
+    solve_s = [solve_wall_s(timings) for timings, _ in known]
+    coordination_s = [coordination_wall_s(timings, members) for timings, members in known]
     return Computing(
         solve_wall_s=_mean(time_s for time_s in solve_s if time_s is not None),
         coordination_wall_s=_mean(time_s for time_s in coordination_s if time_s is not None),

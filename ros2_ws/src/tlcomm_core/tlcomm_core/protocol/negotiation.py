@@ -165,6 +165,11 @@ class Negotiation:
         return len(self._gathering.offers) == 1
 
     @property
+    def offers(self) -> tuple[MemberOffer, ...]:
+        """The offers held, sorted by agent: all members' once the team is known to be present."""
+        return self._gathering.offers
+
+    @property
     def meeting_s(self) -> float | None:
         """t_c of the meeting under way, once the whole team is known to be present."""
         return self._meeting_s

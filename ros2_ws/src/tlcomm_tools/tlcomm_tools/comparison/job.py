@@ -4,6 +4,7 @@
 ``Finished``  the files of a run
 ``Failed``    why there is no run
 ``execute``   runs it here
+``TRACE``     name of the file that figures are drawn from
 """
 
 import time
@@ -20,9 +21,12 @@ from tlcomm_core.scenario.loader import loads
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate
 from tlcomm_core.units import seconds
+from tlcomm_tools.figures.trace import Trace
 from tlcomm_tools.folder import dumps_json
 
-__all__ = ["Failed", "Finished", "Job", "Outcome", "execute"]
+__all__ = ["TRACE", "Failed", "Finished", "Job", "Outcome", "execute"]
+
+TRACE: Final = "trace.json"
 
 _PACE: Final = "lockstep"
 
@@ -106,4 +110,7 @@ def _simulated(job: Job) -> Finished:
         wall_s=time.perf_counter() - begun_s,
     )
     result = result_document(scenario, left.records, facts)
-    return Finished({"scenario.yaml": job.scenario, "result.json": dumps_json(result)})
+    files = {"scenario.yaml": job.scenario, "result.json": dumps_json(result)}
+    if job.is_drawn:
+        files[TRACE] = Trace.from_records(scenario, job.method, left.records, result).to_json()
+    return Finished(files)

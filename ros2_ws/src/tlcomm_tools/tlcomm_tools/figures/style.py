@@ -4,6 +4,7 @@
 ``PAGE_IN``     width of a page
 ``LineStyle``   how a line is told from others
 ``method_line`` a method's
+``in_order``    methods as figures show them
 ``agent_line``  an agent's
 ``agent_labels``  short names of agents
 ``styled``      the style, while figures are made and saved
@@ -13,13 +14,13 @@
 """
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from matplotlib import rc_context
+from matplotlib import rc_context, rcdefaults, rcParams
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import EngFormatter
@@ -32,6 +33,7 @@ __all__ = [
     "LineStyle",
     "agent_labels",
     "agent_line",
+    "in_order",
     "method_line",
     "new_figure",
     "save",
@@ -120,6 +122,11 @@ def method_line(method: str) -> LineStyle:
     return _METHODS[method]
 
 
+def in_order(methods: Iterable[str]) -> list[str]:
+    """Return methods in the order in which figures show them, the team's way first."""
+    return sorted(methods, key=list(_METHODS).index)
+
+
 def agent_line(index: int) -> LineStyle:
     """Return how the line of the agent with this index in the team looks."""
     return _AGENTS[index % len(_AGENTS)]
@@ -134,8 +141,13 @@ def agent_labels(agents: Sequence[str]) -> dict[str, str]:
 
 @contextmanager
 def styled() -> Iterator[None]:
-    """Let figures that are made and saved inside have this style; matplotlib's own is untouched."""
-    with rc_context(_RC):
+    """Let figures that are made and saved inside have this style, whatever the user's is.
+
+    Outside, it is as it was.
+    """
+    with rc_context():
+        rcdefaults()
+        rcParams.update(_RC)
         yield
 
 
@@ -157,6 +169,9 @@ def save(figure: Figure, folder: Path, name: str) -> tuple[Path, Path]:
         OSError: a file can't be written.
     """
     vector, raster = folder / f"{name}.svg", folder / f"{name}.png"
+    # Finding out what room labels need takes most of the time, and is the same for both.
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
     figure.savefig(vector, metadata={"Date": None})
     figure.savefig(raster, metadata={"Software": None})
     return vector, raster

@@ -12,13 +12,16 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tlcomm_tools.figures.elements import Meeting
-from tlcomm_tools.figures.plan_view import draw_ground
+from tlcomm_tools.figures.plan_view import draw_ground, height_in
 from tlcomm_tools.figures.style import PAGE_IN, new_figure
 from tlcomm_tools.figures.trace import Trace
 
 __all__ = ["PAPER_ROUNDS", "topologies_figure"]
 
 PAPER_ROUNDS: Final = (1, 8, 23, 58)
+
+# What beside the panels is taken by labels.
+_BESIDE_IN: Final = (0.4, 0.55)
 
 
 def topologies_figure(trace: Trace, rounds: Sequence[int] = PAPER_ROUNDS) -> Figure:
@@ -31,10 +34,13 @@ def topologies_figure(trace: Trace, rounds: Sequence[int] = PAPER_ROUNDS) -> Fig
         rounds: one panel each.
     """
     shown = [found for number in rounds if (found := _apart(trace, number))]
-    figure = new_figure(PAGE_IN * (0.3 + len(shown)) / (0.3 + len(PAPER_ROUNDS)), 2.15)
+    panel_in = (PAGE_IN - _BESIDE_IN[0]) / max(len(PAPER_ROUNDS), len(shown))
+    figure = new_figure(
+        _BESIDE_IN[0] + panel_in * len(shown), _BESIDE_IN[1] + height_in(trace.ground, panel_in)
+    )
     panels = figure.subplots(1, len(shown), sharey=True, squeeze=False)[0]
     for axes, found in zip(panels, shown, strict=True):
-        draw_ground(axes, trace.ground, named=False)
+        draw_ground(axes, trace.ground)
         for meeting in found:
             _draw_meeting(axes, meeting)
         axes.set_title(f"r = {found[0].round} at {found[0].start_s:.0f} s", fontsize=8.0)

@@ -5,10 +5,12 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import Final
 
+from tlcomm_core.agent.member import check_start
 from tlcomm_core.agent.planner import check_tasks
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.scenario.site import Site
+from tlcomm_tools.limit import time_limit_s
 from tlcomm_tools.progress import Progress
 from tlcomm_tools.run import RunOptions, run_mission
 from tlcomm_tools.status import Status
@@ -36,7 +38,9 @@ def run(options: Namespace) -> Status:
     """Run the scenario and show the results."""
     scenario = load_scenario(options.scenario)
     # Before any process starts: an agent without a plan would only take the others down with it.
-    check_tasks(Site.from_scenario(scenario))
+    site = Site.from_scenario(scenario)
+    check_tasks(site, options.method)
+    check_start(site, options.method)
     return run_scenario(scenario, options)
 
 
@@ -44,6 +48,7 @@ def run_scenario(scenario: Scenario, options: Namespace) -> Status:
     """Run a scenario with the options that ``add_arguments`` describes; show the results."""
     options.method.solver(options.solver).check_team(len(scenario.agents))
     rounds, until_s = mission_end(options)
+    limit_s = time_limit_s(scenario, rounds, until_s, options.method)
     what = RunOptions(
         scenario=scenario,
         method=options.method,
@@ -54,7 +59,7 @@ def run_scenario(scenario: Scenario, options: Namespace) -> Status:
         until_s=until_s,
         out=options.out,
     )
-    with Progress(rounds, until_s) as progress:
+    with Progress.towards(rounds, limit_s, options.method) as progress:
         report = run_mission(what, progress.show)
     if options.json:
         print_json({**report.result, "folder": str(report.folder.path)})

@@ -48,14 +48,14 @@ def run(options: Namespace) -> Status:
     solver = options.method.solver(options.solver)
     solver.check_team(len(scenario.agents))
     rounds, until_s = mission_end(options)
-    limit_s = time_limit_s(scenario, rounds, until_s)
+    limit_s = time_limit_s(scenario, rounds, until_s, options.method)
     mission = Mission(
         Site.from_scenario(scenario), options.seed, rounds, limit_s, solver, options.method
     )
     folder = RunFolder.create(scenario.name, options.method, options.out)
     folder.write_scenario(dumps(scenario))
     begun_s = time.perf_counter()
-    with Progress(rounds, until_s) as progress:
+    with Progress.towards(rounds, limit_s, options.method) as progress:
         left = simulate(mission, lambda sim_ns, meetings: progress.show(seconds(sim_ns), meetings))
     facts = RunFacts(
         method=options.method,

@@ -1,0 +1,234 @@
+"""How a team goes together, so that it is connected at every instant.
+
+``AgreedLeg``    a leg that others reckon with: which way, and from when on
+``Part``         one agent's part in what the team does next
+``turn``         all go to where the leader's next step is
+``contraction``  the outermost go to those next to them
+``is_together``  whether all are at one place
+
+A turn. All stand at one place, and drive one polyline, the leader's way, at one pair of speeds (v,
+ω) that all can do. Headings may differ at first: agent i needs T_i to turn to the first straight,
+and sets out max_j T_j − T_i after the departure. So all begin the first straight at the same time.
+From then on they are at the same point, with the same heading, at every instant, and before that
+none of them moves. So the distance of any two is 0 ≤ R. At the end of the way the leader does what
+its plan has next there, a visit and an action as a rule, while the others stand by.
+
+A contraction. Not all stand at one place. Let linked pairs be those that are in the planned range
+and in sight of each other, with a free straight between them; let a tree of shortest ways over
+links lead to a root; and let those at its largest depth, which is D, go straight to where their
+parents are. The parents, at depth D − 1, stand still, and so does everyone else but the children. A
+child's distance to its parent falls from at most R to 0, and its sight of it stays free, as it
+moves along the line of sight. All links between those that stand still stay. So at every instant
+the tree connects the team, at whatever times and speeds its members set out. Afterwards the root's
+ways have D − 1 links at most; so after at most D contractions all are at the root's place, and
+after as many as the least depth of all trees if each time the root with the least is taken.
+
+What this promises for the places that controllers aim at holds for where agents are as well as they
+keep to their speeds: it needs no more than that what they are off by, with the range, stays below
+R.
+
+Source: M. Guo, J. Tumova and D. V. Dimarogonas, "Communication-free multi-agent control under local
+    temporal tasks and relative-distance constraints", IEEE Trans. Automatic Control, 2016: one
+    agent after the other is the leader and goes to its next goal; the others follow, so that the
+    graph stays connected, and all end up near that goal.
+Deviates: there followers are driven by a potential over continuous motion, without any
+    communication; here turn-and-forward vehicles agree on the leader's way and drive it themselves.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations, takewhile
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse.csgraph import shortest_path
+
+from tlcomm_core.game.offer import MemberOffer
+from tlcomm_core.game.strategy import Strategy
+from tlcomm_core.geometry import Pose, wrap_angle
+from tlcomm_core.workspace.travel import Leg, Motion, TravelTimes
+
+__all__ = ["AgreedLeg", "Part", "contraction", "is_together", "turn"]
+
+# Segments of a controller that a turn and a straight make, with one to spare.
+_SEGMENTS: Final = 4
+# Simulated time is rounded to nanoseconds, each time anew: so late may somebody be.
+_ROUNDING_S: Final = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class AgreedLeg:
+    """A leg that others reckon with.
+
+    Attributes:
+        start: where it begins; from elsewhere it means nothing.
+        leg: the way.
+        begins_s: when to set out, not earlier.
+        ends_s: when all are there: who is earlier waits.
+    """
+
+    start: Pose
+    leg: Leg
+    begins_s: float
+    ends_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """One agent's part in what the team does next.
+
+    Attributes:
+        way: how it goes.
+        strategy: the same as the team knows it. Its h of an agent that does no step, and has done
+            none yet, is 0: there is no number for none.
+        steps: how many steps of its plan it does there.
+    """
+
+    way: AgreedLeg
+    strategy: Strategy
+    steps: int
+
+
+def is_together(offers: Sequence[MemberOffer], within_m: float) -> bool:
+    """Tell whether no two members' places are further apart than ``within_m``."""
+    poses = [_pose_of(offer) for offer in offers]
+    return all(
+        one.distance_m(other.x_m, other.y_m) <= within_m for one, other in combinations(poses, 2)
+    )
+
+
+def turn(
+    offers: Sequence[MemberOffer], leader: int, departure_s: float, travel: TravelTimes
+) -> tuple[Part, ...]:
+    """Return everybody's part when all go to where the leader's next step is.
+
+    Args:
+        offers: all members', who are together.
+        leader: whose step it is, by its index. If no way leads to it, all stay.
+        departure_s: when the present meeting ends.
+        travel: travel times with speeds that all can do, round what anybody avoids.
+    """
+    leg, steps = _leaders_leg(offers[leader], travel)
+    turns_s = [_turn_s(_pose_of(offer), leg, travel.motion) for offer in offers]
+    straight_s = departure_s + max(turns_s)
+    after_turn_s = leg.duration_s - turns_s[leader]
+    ends_s = straight_s + after_turn_s + _ROUNDING_S
+    parts = []
+    for index, (offer, turn_s) in enumerate(zip(offers, turns_s, strict=True)):
+        own = Leg(leg.waypoints_m, turn_s + after_turn_s, leg.distance_m, leg.arrival)
+        way = AgreedLeg(_pose_of(offer), own, straight_s - turn_s, ends_s)
+        if index == leader and steps:
+            acting_s = offer.stops[steps - 1].finish_offset_s - leg.duration_s
+            parts.append(_part(offer, way, ends_s + acting_s, 0.0, steps))
+        else:
+            parts.append(_part(offer, way, ends_s, _extra_s(offer, leg.arrival, travel)))
+    return tuple(parts)
+
+
+def contraction(
+    offers: Sequence[MemberOffer],
+    linked: NDArray[np.bool_],
+    departure_s: float,
+    travel: TravelTimes,
+) -> tuple[Part, ...]:
+    """Return everybody's part when the outermost go to those next to them, and all others stay.
+
+    If the links don't connect all members, all go to the first's place, as directly as they can.
+
+    Args:
+        offers: all members'.
+        linked: bool[N, N]: who may go straight to whom.
+        departure_s: when the present meeting ends.
+        travel: as for ``turn``.
+    """
+    poses = [_pose_of(offer) for offer in offers]
+    legs = [
+        _straight(pose, poses[parent], travel.motion)
+        for pose, parent in zip(poses, _parents(linked), strict=True)
+    ]
+    ends_s = departure_s + max(leg.duration_s for leg in legs) + _ROUNDING_S
+    return tuple(
+        _part(
+            offer,
+            AgreedLeg(pose, leg, departure_s, ends_s),
+            ends_s,
+            _extra_s(offer, leg.arrival, travel),
+        )
+        for offer, pose, leg in zip(offers, poses, legs, strict=True)
+    )
+
+
+def _parents(linked: NDArray[np.bool_]) -> list[int]:
+    """Return where each goes: the outermost to their parents, the others to themselves."""
+    hops = shortest_path(linked.astype(np.float64), directed=False, unweighted=True)
+    if not np.isfinite(hops).all():
+        return [0] * len(linked)
+    depth = hops[int(np.argmin(hops.max(axis=0)))]
+    outermost = depth == depth.max()
+    nearer = linked & (depth[np.newaxis] == depth[:, np.newaxis] - 1.0)
+    return [
+        int(np.argmax(nearer[agent])) if outermost[agent] else agent for agent in range(len(linked))
+    ]
+
+
+def _leaders_leg(offer: MemberOffer, travel: TravelTimes) -> tuple[Leg, int]:
+    """Return the way to the offer's next stop, and how many stops are there; none: it stays."""
+    pose, (stop, *following) = _pose_of(offer), offer.stops
+    target = travel.grid.location_at(stop.x_m, stop.y_m)
+    if target is None or not travel.grid.leads(pose.x_m, pose.y_m, target):
+        return Leg((), 0.0, 0.0, pose), 0
+    there = takewhile(lambda own: (own.x_m, own.y_m) == (stop.x_m, stop.y_m), following)
+    return travel.leg_to(pose, target), 1 + len([*there])
+
+
+def _straight(start: Pose, end: Pose, motion: Motion) -> Leg:
+    distance_m = start.distance_m(end.x_m, end.y_m)
+    if distance_m == 0.0:
+        return Leg((), 0.0, 0.0, start)
+    yaw_rad = math.atan2(end.y_m - start.y_m, end.x_m - start.x_m)
+    turned_s = abs(wrap_angle(yaw_rad - start.yaw_rad)) / motion.angular_radps
+    duration_s = turned_s + distance_m / motion.linear_mps + _SEGMENTS * motion.segment_allowance_s
+    arrival = Pose(end.x_m, end.y_m, yaw_rad)
+    return Leg(((end.x_m, end.y_m),), duration_s, distance_m, arrival)
+
+
+def _turn_s(pose: Pose, leg: Leg, motion: Motion) -> float:
+    """Return how long an agent turns before the first straight of a leg."""
+    if not leg.waypoints_m:
+        return 0.0
+    x_m, y_m = leg.waypoints_m[0]
+    ahead_rad = math.atan2(y_m - pose.y_m, x_m - pose.x_m)
+    return abs(wrap_angle(ahead_rad - pose.yaw_rad)) / motion.angular_radps
+
+
+def _extra_s(offer: MemberOffer, place: Pose, travel: TravelTimes) -> float:
+    """Return δ: what going by a place adds to the way to the own next stop; 0 if there is none."""
+    pose, stop, grid = _pose_of(offer), offer.stops[0], travel.grid
+    here, following = (grid.location_at(own.x_m, own.y_m) for own in (place, stop))
+    if here is None or following is None:
+        return 0.0
+    if not all(grid.leads(pose.x_m, pose.y_m, location) for location in (here, following)):
+        return 0.0
+    return float(travel.detour(pose, following).extra_s[here])
+
+
+def _part(
+    offer: MemberOffer, way: AgreedLeg, ready_s: float, extra_s: float, steps: int = 0
+) -> Part:
+    place = way.leg.arrival
+    done = offer.stops[0].task_index - 1
+    strategy = Strategy(
+        agent=offer.agent,
+        x_m=place.x_m,
+        y_m=place.y_m,
+        task_index=max(0, done + steps),
+        arrival_s=ready_s,
+        extra_travel_s=extra_s,
+    )
+    return Part(way, strategy, steps)
+
+
+def _pose_of(offer: MemberOffer) -> Pose:
+    return Pose(offer.x_m, offer.y_m, offer.yaw_rad)
