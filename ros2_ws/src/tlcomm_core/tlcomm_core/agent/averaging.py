@@ -57,7 +57,7 @@ class Averaging(ABC):
 
 
 class Consensus(Averaging):
-    """Weighted steps towards what neighbours say, x_i ← x_i + Σ_j ε_ij (x_j − x_i), and by readings.
+    """Steps towards what neighbours say, x_i ← x_i + Σ_j ε_ij (x_j − x_i), and by readings.
 
     An agent's first reading is its estimate. A later one shifts the estimate by what it differs
     from the one before, x_i ← x_i + (u_i' − u_i). So the sum of all estimates is that of all newest
@@ -74,18 +74,18 @@ class Consensus(Averaging):
     ε = 1 / (Δ + 1) is where Δ is known, from what the two ends of a link know. Either is the same
     at both ends, and the x are those that both have said and heard; so what one gains the other
     loses, and the sum of all estimates stays. That needs what is said to be heard. After a loss an
-    end steps towards an older value than it should, or not at all, and the sum shifts by that much.
-    But the weights of a step always sum up to less than 1, so an estimate never leaves the
-    span of those around it, and agreement comes all the same.
+    end steps towards an older value than it should, or not at all, and the sum shifts by that much,
+    for good. But the weights of a step always sum up to less than 1, so no step leads out of the
+    span of the values around, and agreement comes all the same.
 
     Source: R. Olfati-Saber, J. A. Fax and R. M. Murray, "Consensus and Cooperation in Networked
-        Multi-Agent Systems", Proc. IEEE 95(1), 2007, eq. (12) and Theorem 2: average consensus for
-        ε < 1/Δ on a connected undirected graph, Δ its largest number of neighbours; for links that
-        change see its Section III. The local weights are the Metropolis weights of L. Xiao,
-        S. Boyd and S. Lall, "A Scheme for Robust Distributed Sensor Fusion Based on Average
-        Consensus", IPSN 2005. Readings: M. Zhu and S. Martínez, "Discrete-time Dynamic Average
-        Consensus", Automatica 46(2), 2010, first order; after D. P. Spanos, R. Olfati-Saber and
-        R. M. Murray, "Dynamic Consensus on Mobile Networks", IFAC World Congress 2005.
+        Multi-Agent Systems", Proc. IEEE 95(1), 2007, Theorem 2: average consensus for ε < 1/Δ on a
+        connected undirected graph, Δ its largest number of neighbours. The local weights are the
+        Metropolis weights of L. Xiao, S. Boyd and S. Lall, "A Scheme for Robust Distributed Sensor
+        Fusion Based on Average Consensus", IPSN 2005. Readings: M. Zhu and S. Martínez,
+        "Discrete-time Dynamic Average Consensus", Automatica 46(2), 2010, first order; after
+        D. P. Spanos, R. Olfati-Saber and R. M. Murray, "Dynamic Consensus on Mobile Networks",
+        IFAC World Congress 2005.
     Deviates: differences within the tolerance count as none. Agents that have no value yet take the
         mean of what they hear, until their first reading.
     """
