@@ -3,6 +3,7 @@
 import os
 import signal
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -96,26 +97,28 @@ def odometry_key(odometry: Odometry) -> tuple[int, str]:
 
 
 @pytest.mark.parametrize(
-    ("scenario", "rounds"), [(SCENARIO, 2), (gate(), 5)], ids=["corridor", "gate"]
+    ("scenario", "rounds", "method"),
+    [(SCENARIO, 2, Method.TEAM), (gate(), 5, Method.TEAM), (SCENARIO, 2, Method.ALL_TIME)],
+    ids=["corridor", "gate", "turns"],
 )
 def test_lock_step_run_equals_the_simulation(
-    tmp_path: Path, scenario: Scenario, rounds: int
+    tmp_path: Path, scenario: Scenario, rounds: int, method: Method
 ) -> None:
     """Over ROS the same decisions fall and the same poses are recorded, to the bit; all is well,
     and the figures are equal.
     """
     segments: list[str] = []
     report = run_mission(
-        options_of(tmp_path / "run", rounds, scenario=scenario),
+        replace(options_of(tmp_path / "run", rounds, scenario=scenario), method=method),
         lambda *_: segments.extend(shared_segments(tmp_path)),
     )
     assert report.status is Status.FINE, report
     assert report.result["verdict"] == "ok"
     recorded = read_run(report.folder.bag).records
-    left = simulate(Mission(Site.from_scenario(scenario), 0, rounds, None))
+    left = simulate(Mission(Site.from_scenario(scenario), 0, rounds, None, method=method))
     expected = left.records
     assert list(event_log(recorded)) == list(event_log(expected))
-    metrics = run_metrics(scenario, expected, Method.TEAM, left.sim_ns).document()
+    metrics = run_metrics(scenario, expected, method, left.sim_ns).document()
     assert report.result["metrics"]["team"] == metrics["team"]
     assert report.result["metrics"]["agents"] == metrics["agents"]
     assert sorted(recorded.odometry, key=odometry_key) == sorted(

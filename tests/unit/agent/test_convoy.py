@@ -82,6 +82,23 @@ def test_what_comes_next_at_the_same_place_is_done_in_the_same_turn() -> None:
     assert part.strategy.arrival_s == pytest.approx(part.way.ends_s + 8.0)
 
 
+def test_who_is_a_little_off_misses_no_corner() -> None:
+    """One so near that somebody may be past it isn't driven to; all meet at the next at once."""
+    offers = [offer_at("a", 1.23, 0.76, 2.0), offer_at("b", 1.26, 0.74, -2.0)]
+    parts = turn(offers, 0, DEPARTURE_S, TRAVEL, 0.06)
+    (corner_m,) = {part.way.leg.waypoints_m[0] for part in parts}
+    assert corner_m != HERE
+    assert turn(offers, 0, DEPARTURE_S, TRAVEL)[0].way.leg.waypoints_m == (
+        HERE,
+        *parts[0].way.leg.waypoints_m,
+    )
+    times_s = [
+        straight_s(part) + math.dist((part.way.start.x_m, part.way.start.y_m), corner_m) / 0.5
+        for part in parts
+    ]
+    assert times_s[0] == pytest.approx(times_s[1], abs=1e-9)
+
+
 def test_nobody_goes_where_no_way_leads() -> None:
     """The turn is over at once, and whoever is next may be luckier."""
     shut = Grid((6.0, 3.0), 0.5, [(2.0, 0.0, 2.5, 3.0)])

@@ -7,11 +7,12 @@
 ``is_together``  whether all are at one place
 
 A turn. All stand at one place, and drive one polyline, the leader's way, at one pair of speeds (v,
-ω) that all can do. Headings may differ at first: agent i needs T_i to turn to the first straight,
-and sets out max_j T_j − T_i after the departure. So all begin the first straight at the same time.
-From then on they are at the same point, with the same heading, at every instant, and before that
-none of them moves. So the distance of any two is 0 ≤ R. At the end of the way the leader does what
-its plan has next there, a visit and an action as a rule, while the others stand by.
+ω) that all can do. Headings may differ at first: agent i needs T_i to turn to the first straight
+and to drive it, and sets out max_j T_j − T_i after the departure. So all come to its end, the first
+corner, at the same time, and began it at the same time as well, as it is as long for all. From then
+on they are at the same point, with the same heading, at every instant, and before that none of them
+moves. So the distance of any two is 0 ≤ R. At the end of the way the leader does what its plan has
+next there, a visit and an action as a rule, while the others stand by.
 
 A contraction. Not all stand at one place. Let linked pairs be those that are in the planned range
 and in sight of each other, with a free straight between them; let a tree of shortest ways over
@@ -38,7 +39,7 @@ Deviates: there followers are driven by a potential over continuous motion, with
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations, takewhile
+from itertools import combinations, dropwhile, takewhile
 from typing import Final
 
 import numpy as np
@@ -52,7 +53,9 @@ from tlcomm_core.workspace.travel import Leg, Motion, TravelTimes
 
 __all__ = ["AgreedLeg", "Part", "contraction", "is_together", "turn"]
 
-# Segments of a controller that a turn and a straight make, with one to spare.
+Corners = tuple[tuple[float, float], ...]
+
+# A turn and a straight are two segments of a controller; as many are spare.
 _SEGMENTS: Final = 4
 # Simulated time is rounded to nanoseconds, each time anew: so late may somebody be.
 _ROUNDING_S: Final = 1e-3
@@ -100,7 +103,11 @@ def is_together(offers: Sequence[MemberOffer], within_m: float) -> bool:
 
 
 def turn(
-    offers: Sequence[MemberOffer], leader: int, departure_s: float, travel: TravelTimes
+    offers: Sequence[MemberOffer],
+    leader: int,
+    departure_s: float,
+    travel: TravelTimes,
+    near_m: float = 0.0,
 ) -> tuple[Part, ...]:
     """Return everybody's part when all go to where the leader's next step is.
 
@@ -109,16 +116,20 @@ def turn(
         leader: whose step it is, by its index. If no way leads to it, all stay.
         departure_s: when the present meeting ends.
         travel: travel times with speeds that all can do, round what anybody avoids.
+        near_m: corners of the way so near to its start aren't driven to: who is a little off may
+            be past them.
     """
     leg, steps = _leaders_leg(offers[leader], travel)
-    turns_s = [_turn_s(_pose_of(offer), leg, travel.motion) for offer in offers]
-    straight_s = departure_s + max(turns_s)
-    after_turn_s = leg.duration_s - turns_s[leader]
-    ends_s = straight_s + after_turn_s + _ROUNDING_S
+    start = _pose_of(offers[leader])
+    corners_m = _without_near(start, leg.waypoints_m, near_m)
+    drives_s = [_drives_s(_pose_of(offer), corners_m, travel.motion) for offer in offers]
+    firsts_s = [sum(drive_s[:1]) for drive_s in drives_s]
+    turned_s = departure_s + max(firsts_s)
+    ends_s = turned_s + sum(drives_s[leader][1:]) + _ROUNDING_S
     parts = []
-    for index, (offer, turn_s) in enumerate(zip(offers, turns_s, strict=True)):
-        own = Leg(leg.waypoints_m, turn_s + after_turn_s, leg.distance_m, leg.arrival)
-        way = AgreedLeg(_pose_of(offer), own, straight_s - turn_s, ends_s)
+    for index, (offer, drive_s, first_s) in enumerate(zip(offers, drives_s, firsts_s, strict=True)):
+        own = Leg(corners_m, sum(drive_s), leg.distance_m, leg.arrival)
+        way = AgreedLeg(_pose_of(offer), own, turned_s - first_s, ends_s)
         if index == leader and steps:
             acting_s = offer.stops[steps - 1].finish_offset_s - leg.duration_s
             parts.append(_part(offer, way, ends_s + acting_s, 0.0, steps))
@@ -187,20 +198,29 @@ def _straight(start: Pose, end: Pose, motion: Motion) -> Leg:
     distance_m = start.distance_m(end.x_m, end.y_m)
     if distance_m == 0.0:
         return Leg((), 0.0, 0.0, start)
+    corners_m = ((end.x_m, end.y_m),)
     yaw_rad = math.atan2(end.y_m - start.y_m, end.x_m - start.x_m)
-    turned_s = abs(wrap_angle(yaw_rad - start.yaw_rad)) / motion.angular_radps
-    duration_s = turned_s + distance_m / motion.linear_mps + _SEGMENTS * motion.segment_allowance_s
-    arrival = Pose(end.x_m, end.y_m, yaw_rad)
-    return Leg(((end.x_m, end.y_m),), duration_s, distance_m, arrival)
+    duration_s = sum(_drives_s(start, corners_m, motion))
+    return Leg(corners_m, duration_s, distance_m, Pose(end.x_m, end.y_m, yaw_rad))
 
 
-def _turn_s(pose: Pose, leg: Leg, motion: Motion) -> float:
-    """Return how long an agent turns before the first straight of a leg."""
-    if not leg.waypoints_m:
-        return 0.0
-    x_m, y_m = leg.waypoints_m[0]
-    ahead_rad = math.atan2(y_m - pose.y_m, x_m - pose.x_m)
-    return abs(wrap_angle(ahead_rad - pose.yaw_rad)) / motion.angular_radps
+def _without_near(start: Pose, corners_m: Corners, near_m: float) -> Corners:
+    """Return the corners of a way from the first on that isn't near its start, or the last."""
+    ahead = dropwhile(lambda corner_m: start.distance_m(*corner_m) <= near_m, corners_m)
+    return tuple(ahead) or corners_m[-1:]
+
+
+def _drives_s(start: Pose, corners_m: Corners, motion: Motion) -> list[float]:
+    """Return how long the turn and the straight to each corner of a way take."""
+    x_m, y_m, yaw_rad = start.x_m, start.y_m, start.yaw_rad
+    drives_s = []
+    for to_x_m, to_y_m in corners_m:
+        ahead_rad = math.atan2(to_y_m - y_m, to_x_m - x_m)
+        turned_s = abs(wrap_angle(ahead_rad - yaw_rad)) / motion.angular_radps
+        driven_s = math.dist((x_m, y_m), (to_x_m, to_y_m)) / motion.linear_mps
+        drives_s.append(turned_s + driven_s + _SEGMENTS * motion.segment_allowance_s)
+        x_m, y_m, yaw_rad = to_x_m, to_y_m, ahead_rad
+    return drives_s
 
 
 def _extra_s(offer: MemberOffer, place: Pose, travel: TravelTimes) -> float:

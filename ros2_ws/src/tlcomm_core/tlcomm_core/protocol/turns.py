@@ -30,7 +30,7 @@ class TurnTeam(Team):
     ``duration_s`` is the pause between two turns instead of D_c.
 
     Attributes:
-        off_m: how far apart members at the same place may be.
+        off_m: how far a member may be off its place.
     """
 
     off_m: float = 0.0
