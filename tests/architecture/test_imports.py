@@ -48,6 +48,7 @@ ARROWS: dict[str, set[str]] = {
         "scenario",
         "units",
         "workspace",
+        "world.radio",
         "world.unicycle",
     },
     "world": {

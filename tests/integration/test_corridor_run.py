@@ -3,7 +3,6 @@
 import os
 import signal
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -32,12 +31,16 @@ SHARED_MEMORY = "/dev/shm/fastrtps"  # noqa: S108 (what Fast DDS leaves behind)
 
 
 def options_of(
-    out: Path, rounds: int, pace: Pace = LOCKSTEP, scenario: Scenario = SCENARIO
+    out: Path,
+    rounds: int,
+    pace: Pace = LOCKSTEP,
+    scenario: Scenario = SCENARIO,
+    method: Method = Method.TEAM,
 ) -> RunOptions:
     """Return a run of the corridor, or of another scenario."""
     return RunOptions(
         scenario=scenario,
-        method=Method.TEAM,
+        method=method,
         solver=DEFAULT,
         seed=0,
         pace=pace,
@@ -98,8 +101,13 @@ def odometry_key(odometry: Odometry) -> tuple[int, str]:
 
 @pytest.mark.parametrize(
     ("scenario", "rounds", "method"),
-    [(SCENARIO, 2, Method.TEAM), (gate(), 5, Method.TEAM), (SCENARIO, 2, Method.ALL_TIME)],
-    ids=["corridor", "gate", "turns"],
+    [
+        (SCENARIO, 2, Method.TEAM),
+        (gate(), 5, Method.TEAM),
+        (SCENARIO, 4, Method.PAIRWISE),
+        (SCENARIO, 2, Method.ALL_TIME),
+    ],
+    ids=["corridor", "gate", "pairs", "turns"],
 )
 def test_lock_step_run_equals_the_simulation(
     tmp_path: Path, scenario: Scenario, rounds: int, method: Method
@@ -109,7 +117,7 @@ def test_lock_step_run_equals_the_simulation(
     """
     segments: list[str] = []
     report = run_mission(
-        replace(options_of(tmp_path / "run", rounds, scenario=scenario), method=method),
+        options_of(tmp_path / "run", rounds, scenario=scenario, method=method),
         lambda *_: segments.extend(shared_segments(tmp_path)),
     )
     assert report.status is Status.FINE, report

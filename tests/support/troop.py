@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 from support.hall import LoneAgent
 from tlcomm_core.agent.actions import TaskEvent, TaskEventKind
+from tlcomm_core.method import Method
 from tlcomm_core.protocol.messages import Message
 
 __all__ = ["Troop"]
@@ -26,12 +27,14 @@ class Troop:
     Attributes:
         names: which.
         is_cut: whether a message is lost on its way, by time, receiver and message.
+        method: of coordination.
         agents: their brains and vehicles, by name.
         now_s: the time.
     """
 
     names: Sequence[str]
     is_cut: Callable[[float, str, Message], bool] = lambda _time_s, _receiver, _message: False
+    method: Method = Method.TEAM
     agents: dict[str, LoneAgent] = field(default_factory=dict)
     now_s: float = 0.0
 
@@ -40,7 +43,8 @@ class Troop:
         self._order = itertools.count()
         self._air: list[tuple[float, int, str, Message]] = []
         self._heard = dict.fromkeys(self.names, 0)
-        self.agents = {name: LoneAgent(name, len(self.names)) for name in self.names}
+        count = len(self.names)
+        self.agents = {name: LoneAgent(name, count, method=self.method) for name in self.names}
         for name in self.names:
             self.agents[name].act()
             self._send(name)

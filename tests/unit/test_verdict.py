@@ -124,6 +124,19 @@ def test_pairs_agree_on_their_own_meetings() -> None:
     ]
 
 
+def test_a_window_missed_by_a_pair_fails_pairs_only() -> None:
+    """With the two who missed it; whether the whole team keeps windows doesn't matter then."""
+    records = hand_made_records()
+    late = Connectivity(11_000_000_000, (), connected=False)
+    others = [own for own in records.connectivity if not 11.0 <= own.stamp_ns / 1e9 < 20.0]
+    records.connectivity = sorted([*others, late], key=lambda own: own.stamp_ns)
+    scenario, end_ns = hand_made_scenario(), 18_000_000_000
+    missed = "window 1 missed by east and west: connected for 1.000 s at most, not 2 s"
+    assert failures(scenario, records, Method.NONE, (), end_ns) == []
+    assert failures(scenario, records, Method.PAIRWISE, (), end_ns) == []
+    assert failures(scenario, records, Method.PAIRWISE, (), 20_000_000_000) == [missed]
+
+
 def test_a_break_fails_where_there_must_be_none() -> None:
     """The first is told, with its times; windows alone don't say that all is well."""
     records = hand_made_records()

@@ -45,7 +45,9 @@ class Told:
 
 def meeting_with(told: Told, way_s: float = WAY_S) -> Meeting:
     """Return a meeting at which that is known."""
-    return Meeting("agent_00", told, make_team(2), lambda _place: way_s)  # type: ignore[arg-type]
+    return Meeting(
+        "agent_00", told, make_team(2), lambda strategy: strategy.communication_s - way_s
+    )  # type: ignore[arg-type]
 
 
 def leaves_s(told: Told, since_s: float = 101.0, way_s: float = WAY_S) -> float:

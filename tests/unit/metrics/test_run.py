@@ -133,10 +133,14 @@ def test_a_pairs_meeting_counts_for_its_members() -> None:
 
 
 def test_turns_are_no_meetings() -> None:
-    """What a method without meetings holds as strategies costs no additional time."""
+    """What a method without meetings holds as strategies costs no additional time; finding them
+    takes time, and waiting for others loses it.
+    """
     found = metrics(hand_made_records(), Method.ALL_TIME)
     assert (found.team.meetings, found.team.additional_s) == (0, None)
     assert found.team.lost_per_window_s == pytest.approx(9.0)
+    assert found.team.lost_per_meeting_s is None
+    assert found.computing == metrics(hand_made_records()).computing
 
 
 def test_estimates_are_compared_with_the_field() -> None:

@@ -13,7 +13,7 @@ from typing import Final
 from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.game.strategy import TeamStrategy
 from tlcomm_core.method import Method
-from tlcomm_core.metrics.connection import connected_intervals
+from tlcomm_core.metrics.connection import connected_intervals, pair_windows_of
 from tlcomm_core.metrics.satisfaction import satisfied_ns
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
@@ -38,8 +38,8 @@ def failures(
 ) -> list[str]:
     """Return what is wrong with a run: starving tasks, disagreements, faults, missed windows.
 
-    A missed window is wrong if the method promises to keep it; any break of the connection if it
-    promises that there is none.
+    A missed window is wrong if the method promises to keep it, by the whole team or by a pair; any
+    break of the connection if it promises that there is none.
 
     Args:
         scenario: what was run.
@@ -50,8 +50,10 @@ def failures(
     """
     duration_s = scenario.communication.duration_s
     missed = [window for window in windows if method.keeps_windows and not window.satisfied]
+    by_pairs = _missed_by_pairs(scenario, records, end_ns) if method is Method.PAIRWISE else ()
     return [
         *(_missed(window, duration_s) for window in missed),
+        *by_pairs,
         *(_parted(records, end_ns) if method.goes_together else ()),
         *_unsatisfied(scenario, records, method, end_ns),
         *_disagreements(scenario, records),
@@ -84,10 +86,10 @@ def _failed_ns(agent: str, records: RunRecords) -> Iterator[int]:
     )
 
 
-def _missed(window: Window, duration_s: float) -> str:
+def _missed(window: Window, duration_s: float, by: str = "") -> str:
     longest_s = seconds(window.longest_ns)
     return (
-        f"window {window.round} missed: connected for {longest_s:.3f} s at most, "
+        f"window {window.round} missed{by}: connected for {longest_s:.3f} s at most, "
         f"not {duration_s:g} s"
     )
 
@@ -100,6 +102,14 @@ def _parted(records: RunRecords, end_ns: int) -> Iterator[str]:
         if parted_ns < joined_ns:
             yield f"not connected from {seconds(parted_ns):.3f} s to {seconds(joined_ns):.3f} s"
             return
+
+
+def _missed_by_pairs(scenario: Scenario, records: RunRecords, end_ns: int) -> Iterator[str]:
+    duration_s = scenario.communication.duration_s
+    for pair, windows in pair_windows_of(scenario, records, end_ns).items():
+        for window in windows:
+            if not window.satisfied:
+                yield _missed(window, duration_s, f" by {' and '.join(pair.members)}")
 
 
 def _unsatisfied(
@@ -127,7 +137,7 @@ def _disagreements(scenario: Scenario, records: RunRecords) -> Iterator[str]:
 
     Who reported that it lacks the others' confirmations does as all do, and holds nothing.
     """
-    reported = {(r.event.round + 1, r.agent) for r in records.tasks if r.event.is_disagreement}
+    reported = {(r.event.disputed_round, r.agent) for r in records.tasks}
     held: dict[_Meeting, dict[str, set[TeamStrategy]]] = defaultdict(lambda: defaultdict(set))
     for record in records.strategies:
         held[record.strategy.round, record.strategy.members][record.agent].add(record.strategy)

@@ -5,6 +5,7 @@ from typing import Any
 
 import pytest
 
+from tlcomm_core.method import Method
 from tlcomm_core.mission import Mission
 from tlcomm_core.records import EstimateRecord
 from tlcomm_core.result import RunFacts, result_document
@@ -30,12 +31,12 @@ def trace(plant: Site) -> Trace:
     left = simulate(Mission(plant, seed=0, rounds=2, until_s=None))
     field = plant.scenario.field
     assert field is not None
-    left.records.estimates += [
+    left.records.estimates[:] = [
         EstimateRecord(nanoseconds(time_s), agent, field.profile[0][1] + 1.0, 0.0, False)
         for time_s in (20.0, 80.0)
         for agent in ("agent_1", "agent_2")
     ]
-    facts = RunFacts("team", "coalition", 0, "lockstep", seconds(left.sim_ns), 1.0)
+    facts = RunFacts(Method.TEAM, "coalition", 0, "lockstep", seconds(left.sim_ns), 1.0)
     result: dict[str, Any] = result_document(plant.scenario, left.records, facts)
     courses = follow_courses(plant, 2, 0)
     return Trace.from_records(plant.scenario, "team", left.records, result, courses)

@@ -1,6 +1,6 @@
 """Tests of ``tlcomm_tools.figures.heat_map``."""
 
-import numpy as np
+from collections import Counter
 
 from tlcomm_tools.figures.heat_map import heat_map_figure
 from tlcomm_tools.figures.trace import Trace
@@ -9,12 +9,17 @@ from tlcomm_tools.figures.trace import Trace
 def test_each_cell_has_its_count(trace: Trace) -> None:
     """Cells where nobody met stay empty."""
     axes, bar = heat_map_figure(trace).axes
-    (mesh,) = axes.collections
-    counts = np.ma.filled(mesh.get_array(), np.nan)
-    assert counts.shape == (20, 20)
-    assert np.nansum(counts) == 2 * len(trace.paths)
-    assert np.nanmin(counts) == 1.0
-    x_m, y_m = trace.meetings[0].places_m["agent_1"]
-    assert counts[int(y_m / 0.5), int(x_m / 0.5)] >= 1.0
+    (heat,) = axes.collections
+    counts = {
+        tuple(path.vertices.min(axis=0).tolist()): count
+        for path, count in zip(heat.get_paths(), heat.get_array(), strict=True)
+    }
+    expected = Counter(
+        (x_m // 0.5 * 0.5, y_m // 0.5 * 0.5)
+        for own in trace.meetings
+        for x_m, y_m in own.places_m.values()
+    )
+    assert counts == expected
+    assert heat.get_clim() == (0.0, max(expected.values()))
     assert bar.get_ylabel() == "times an agent met there"
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("x (m)", "y (m)")

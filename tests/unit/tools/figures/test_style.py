@@ -75,12 +75,14 @@ def test_files_are_what_their_names_say(tmp_path: Path) -> None:
         assert (image.format, image.size) == ("PNG", (440, 220))
 
 
-def test_matplotlibs_own_style_is_left_alone() -> None:
-    """The style ends with the block."""
-    before = dict(mpl.rcParams)
-    with styled():
-        assert mpl.rcParams["font.size"] == 8.0
-    assert dict(mpl.rcParams) == before
+def test_the_users_style_counts_outside_only() -> None:
+    """It neither shows in figures nor is it changed."""
+    with mpl.rc_context({"font.size": 30.0, "axes.facecolor": "red"}):
+        with styled():
+            assert mpl.rcParams["font.size"] == 8.0
+            assert mpl.rcParams["axes.facecolor"] == "white"
+        assert mpl.rcParams["font.size"] == 30.0
+        assert mpl.rcParams["axes.facecolor"] == "red"
 
 
 @pytest.mark.parametrize(("highest", "text"), [(9_000.0, "5000"), (90_000.0, "50k")])

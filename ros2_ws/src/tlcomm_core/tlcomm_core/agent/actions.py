@@ -11,6 +11,7 @@
 ``Fault``           what an agent copes with
 """
 
+import re
 from dataclasses import dataclass
 from enum import IntEnum, StrEnum
 from typing import Final
@@ -99,6 +100,12 @@ class TaskEvent:
     def is_disagreement(self) -> bool:
         """Whether a meeting is over, or was left, without agreement on the next."""
         return self.kind is TaskEventKind.FAULT and self.detail.startswith(f"{Fault.DISAGREEMENT}=")
+
+    @property
+    def disputed_round(self) -> int | None:
+        """The round on which a meeting has ended without agreement; ``None`` for other events."""
+        found = re.search(r"\bround=(\d+)", self.detail) if self.is_disagreement else None
+        return None if found is None else int(found[1])
 
     @property
     def is_failed_attempt(self) -> bool:

@@ -41,8 +41,10 @@ class Averaging(ABC):
         """Take in what the agent has measured itself."""
 
     @abstractmethod
-    def is_moved(self, said: EstimateExchange | None, heard: Iterable[EstimateExchange]) -> bool:
-        """Tell whether an exchange would change anything; the arguments are those of it."""
+    def moving(
+        self, said: EstimateExchange | None, heard: Iterable[EstimateExchange]
+    ) -> tuple[EstimateExchange, ...]:
+        """Return what is heard and would change anything; the arguments are an exchange's."""
 
     @abstractmethod
     def exchange(self, said: EstimateExchange | None, heard: Sequence[EstimateExchange]) -> None:
@@ -66,8 +68,8 @@ class Consensus(Averaging):
     ε = 1 / (Δ + 1) is where Δ is known, from what the two ends of a link know. Either is the same
     at both ends, and the x are those that both have said and heard; so what one gains the other
     loses, and the sum of all estimates stays. That needs what is said to be heard. After a loss an
-    end steps towards an older value than it should, or not at all: the sum shifts by at most
-    that. But the weights of a step always sum up to less than 1, so an estimate never leaves the
+    end steps towards an older value than it should, or not at all, and the sum shifts by that much.
+    But the weights of a step always sum up to less than 1, so an estimate never leaves the
     span of those around it, and agreement comes all the same.
 
     Source: R. Olfati-Saber, J. A. Fax and R. M. Murray, "Consensus and Cooperation in Networked
@@ -103,11 +105,13 @@ class Consensus(Averaging):
         del time_ns
         self._estimate = value
 
-    def is_moved(self, said: EstimateExchange | None, heard: Iterable[EstimateExchange]) -> bool:
-        """Tell whether some neighbour's value is further off than the tolerance."""
+    def moving(
+        self, said: EstimateExchange | None, heard: Iterable[EstimateExchange]
+    ) -> tuple[EstimateExchange, ...]:
+        """Return the words whose value is further off than the tolerance."""
         if said is None:
-            return self._estimate is None and any(True for _ in heard)
-        return any(abs(word.value - said.value) > self._tolerance for word in heard)
+            return tuple(heard) if self._estimate is None else ()
+        return tuple(word for word in heard if abs(word.value - said.value) > self._tolerance)
 
     def exchange(self, said: EstimateExchange | None, heard: Sequence[EstimateExchange]) -> None:
         """Step towards what neighbours said, from what they were told."""
@@ -116,14 +120,15 @@ class Consensus(Averaging):
                 self._estimate = fsum(word.value for word in heard) / len(heard)
         elif said is not None:
             # Exactly rounded, so that the order of neighbours doesn't matter.
-            self._estimate += fsum(self._flow(said, word) for word in heard)
+            self._estimate += fsum(
+                self._weight(said, word) * (word.value - said.value)
+                for word in self.moving(said, heard)
+            )
 
-    def _flow(self, said: EstimateExchange, word: EstimateExchange) -> float:
-        difference = word.value - said.value
-        if abs(difference) <= self._tolerance:
-            return 0.0
-        most = max(said.neighbours, word.neighbours)
-        return difference * (1.0 / (1 + most) if self._step is None else self._step)
+    def _weight(self, said: EstimateExchange, word: EstimateExchange) -> float:
+        if self._step is not None:
+            return self._step
+        return 1.0 / (1 + max(said.neighbours, word.neighbours))
 
 
 class Exact(Averaging):
@@ -155,10 +160,12 @@ class Exact(Averaging):
         """Take in the agent's own newest measurement."""
         self._newest[self._own] = Measurement(self._own, value, time_ns)
 
-    def is_moved(self, said: EstimateExchange | None, heard: Iterable[EstimateExchange]) -> bool:
-        """Tell whether some neighbour knows of a newer measurement."""
+    def moving(
+        self, said: EstimateExchange | None, heard: Iterable[EstimateExchange]
+    ) -> tuple[EstimateExchange, ...]:
+        """Return the words that tell of a newer measurement."""
         del said
-        return any(self._is_news(each) for word in heard for each in word.known)
+        return tuple(word for word in heard if any(map(self._is_news, word.known)))
 
     def exchange(self, said: EstimateExchange | None, heard: Sequence[EstimateExchange]) -> None:
         """Take over what is newer."""

@@ -16,7 +16,7 @@ At t = 0 the team is connected: the first odometry finds the agent at the meetin
 
 from typing import Protocol
 
-from tlcomm_core.agent.actions import Action, Fault, ReportTask, TaskEventKind
+from tlcomm_core.agent.actions import Action
 from tlcomm_core.agent.events import (
     Event,
     MapChanged,
@@ -29,7 +29,6 @@ from tlcomm_core.agent.journey import Journey
 from tlcomm_core.agent.meeting import Meeting, News
 from tlcomm_core.agent.offering import offer_of
 from tlcomm_core.agent.settings import Settings
-from tlcomm_core.errors import PlanningError
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.actions import CountIgnored
@@ -169,7 +168,7 @@ class TeamBrain:
             else:
                 actions += self._journey.proceed(now_s)
                 if (arrived := self._journey.take_arrival()) is not None:
-                    actions += self._arrive(arrived, now_s)
+                    actions += self._reach_meeting(now_s, arrived)
             if self._meeting is meeting:
                 return actions
 
@@ -177,36 +176,22 @@ class TeamBrain:
         self._meeting = None
         return self._journey.set_out(now_s, self._round)
 
-    def _arrive(self, meeting: Strategy, now_s: float) -> list[Action]:
-        predicted_s = meeting.arrival_s
-        detail = f"predicted_s={predicted_s:.9f} error_s={now_s - predicted_s:.9f}"
-        return self._reach_meeting(now_s, detail)
-
-    def _reach_meeting(self, now_s: float, detail: str = "") -> list[Action]:
-        actions: list[Action] = [self._report(TaskEventKind.MEETING_REACHED, detail=detail)]
-        if (change := self._itinerary.reach_meeting()) is not None:
-            actions.append(self._report(TaskEventKind.TASK_CHANGED, detail=f"task={change.task}"))
+    def _reach_meeting(self, now_s: float, expected: Strategy | None = None) -> list[Action]:
+        actions = self._journey.reach_meeting(self._round, now_s, expected)
         settings, pose = self._settings, self._journey.pose
-        if self._itinerary.is_blocked(pose):
-            actions.append(self._plan_anew(pose))
         offer = offer_of(settings, self._itinerary, pose, self._map_ns, self._round, now_s)
         self._meeting = Meeting(
             settings.name,
             Negotiation(offer, self._round + 1, settings.team, settings.rounds),
             settings.team,
-            lambda meeting: self._itinerary.leg(pose, meeting).duration_s,
+            self._leave_by_s,
         )
         return actions
 
-    def _plan_anew(self, pose: Pose) -> Action:
-        """Take on another plan for the same task, if there is one on the map as it is."""
-        itinerary = self._itinerary
-        try:
-            plan = self._settings.planner(itinerary.task, pose, itinerary.travel)
-        except PlanningError as error:
-            return self._report_fault(Fault.BLOCKED, str(error))
-        itinerary.plan_anew(plan)
-        return self._report(TaskEventKind.PLAN_CHANGED)
+    def _leave_by_s(self, strategy: TeamStrategy) -> float:
+        """Return when to leave at the latest to be punctual, going straight to the next meeting."""
+        way = self._itinerary.leg(self._journey.pose, strategy.part_of(self._settings.name))
+        return strategy.communication_s - way.duration_s
 
     def _meet(self, meeting: Meeting, now_s: float) -> list[Action]:
         actions: list[Action] = [*meeting.proceed(now_s)]
@@ -217,20 +202,11 @@ class TeamBrain:
 
     def _take_news(self, news: News, meeting: Meeting) -> Action:
         """Report what happens at the meeting; plan for the next one once it is agreed."""
-        negotiation = meeting.negotiation
-        match news:
-            case News.STARTED:
-                detail = f"t_c_s={negotiation.meeting_s:.9f}"
-                return self._report(TaskEventKind.MEETING_STARTED, detail=detail)
-            case News.AGREED:
-                agreed = negotiation.agreed
-                assert agreed is not None
-                self._agree(agreed, meeting.own_part(agreed), meeting.over_s)
-                return self._report(TaskEventKind.ROUND_AGREED, agreed.round)
-            case News.OBSTRUCTED:
-                return self._report_fault(Fault.INFEASIBLE, str(negotiation.obstacle))
-            case News.OVERDUE:
-                return self._report_disagreement("late", negotiation.round)
+        if news is News.AGREED:
+            agreed = meeting.negotiation.agreed
+            assert agreed is not None
+            self._agree(agreed, meeting.own_part(agreed), meeting.over_s)
+        return self._journey.report_meeting(meeting.tell(news))
 
     def _agree(self, strategy: TeamStrategy, own: Strategy, departure_s: float) -> None:
         self._itinerary.agree(own, strategy.communication_s)
@@ -244,10 +220,7 @@ class TeamBrain:
         new_m = None if own is None else (own.x_m, own.y_m)
         here_m = self._whereabouts.place(window)
         self._whereabouts = self._whereabouts.after(window, ending, new_m)
-        if ending is Ending.AGREED:
-            actions = [self._report(TaskEventKind.MEETING_ENDED)]
-        else:
-            actions = [self._report_disagreement(ending.value, window + 1)]
+        actions = [self._journey.report_meeting(meeting.tell(ending))]
         agreed = meeting.negotiation.agreed
         self._round = window + 1 if agreed is None else agreed.round
         if own is not None and confirmed is not None:
@@ -261,15 +234,3 @@ class TeamBrain:
             return [*actions, *self._reach_meeting(now_s)]
         self._itinerary.return_to(there_m, self._settings.name, pose, now_s)
         return [*actions, *self._set_out(now_s)]
-
-    def _report_disagreement(self, how: str, round_: int) -> ReportTask:
-        return self._report_fault(Fault.DISAGREEMENT, f"{how} round={round_}")
-
-    def _report_fault(self, fault: Fault, what: str) -> ReportTask:
-        return self._report(TaskEventKind.FAULT, detail=f"{fault}={what}")
-
-    def _report(
-        self, kind: TaskEventKind, round_: int | None = None, detail: str = ""
-    ) -> ReportTask:
-        own = self._round if round_ is None else round_
-        return self._journey.report(kind, own, detail=detail)

@@ -105,9 +105,19 @@ class Itinerary:
             pose: where the agent stands at the meeting.
             departure_s: when it leaves.
         """
-        if self._is_map_new and departure_s + self._left_s(pose) > self._latest_s():
-            self.delay()
+        if self._is_map_new:
+            self.heed_time(pose, departure_s)
         self._is_map_new = False
+
+    def heed_time(self, pose: Pose, departure_s: float) -> None:
+        """Note whether what was agreed takes longer than there is time for.
+
+        Args:
+            pose: where the agent stands at the meeting.
+            departure_s: when it leaves.
+        """
+        if departure_s + self._left_s(pose) > self._latest_s():
+            self.delay()
 
     def change_map(self, travel: TravelTimes, pose: Pose) -> None:
         """Go by another map from now on.
@@ -250,14 +260,18 @@ class Itinerary:
         place, here = self._place(self._meeting), self.travel.grid.location_at(pose.x_m, pose.y_m)
         return place != here and self._ways.lead(pose, place)
 
-    def next_stops(self, pose: Pose, horizon_s: float) -> tuple[PlannedStop, ...]:
+    def next_stops(
+        self, pose: Pose, horizon_s: float, done: int | None = None
+    ) -> tuple[PlannedStop, ...]:
         """Return the next steps with the times and poses at which they are finished.
 
         Args:
-            pose: where the agent stands at the present meeting.
-            horizon_s: time from the departure to the end of the window to plan.
+            pose: where the agent stands at a meeting: the present one, or a later one.
+            horizon_s: time from its departure there to the end of the window to plan.
+            done: index of the last step that will be done then, unless that is the last one done.
         """
-        return next_stops(self._plan, self.done + 1, pose, self.travel, horizon_s)
+        index = (self.done if done is None else done) + 1
+        return next_stops(self._plan, index, pose, self.travel, horizon_s)
 
     def _has_time(self, pose: Pose, now_s: float) -> bool:
         """Return whether the next step can be done before the meeting."""

@@ -20,6 +20,7 @@ from tlcomm_core.agent.events import MapChanged, OdometryReceived
 from tlcomm_core.agent.itinerary import Itinerary
 from tlcomm_core.agent.reckoning import DeadReckoning
 from tlcomm_core.agent.settings import Settings
+from tlcomm_core.errors import PlanningError
 from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.geometry import Pose, wrap_angle
 from tlcomm_core.planning.plan import PlanStep
@@ -112,6 +113,26 @@ class Journey:
             if self._activity is activity:
                 return actions
 
+    def reach_meeting(
+        self, round_: int, now_s: float, expected: Strategy | None = None
+    ) -> list[Action]:
+        """Report the arrival at a meeting; take on another task or plan from here on, if need be.
+
+        Args:
+            round_: the meeting's.
+            now_s: the time.
+            expected: when, if that was foreseen.
+        """
+        itinerary, self._round = self.itinerary, round_
+        detail = "" if expected is None else _foreseen(expected.arrival_s, now_s)
+        actions: list[Action] = [self.report(TaskEventKind.MEETING_REACHED, round_, detail=detail)]
+        if (change := itinerary.reach_meeting()) is not None:
+            detail = f"task={change.task}"
+            actions.append(self.report(TaskEventKind.TASK_CHANGED, round_, detail=detail))
+        if itinerary.is_blocked(self.pose):
+            actions.append(self._plan_anew())
+        return actions
+
     def take_arrival(self) -> Strategy | None:
         """Return, once, the meeting that the agent has come to; ``None`` if it hasn't."""
         arrived, self._arrived = self._arrived, None
@@ -120,6 +141,11 @@ class Journey:
     def report_fault(self, fault: Fault, what: str) -> ReportTask:
         """Return the report of what the agent copes with."""
         return self.report(TaskEventKind.FAULT, self._round, detail=f"{fault}={what}")
+
+    def report_meeting(self, told: tuple[TaskEventKind, int, str]) -> ReportTask:
+        """Return the report of what happens at a meeting: kind, round and detail."""
+        kind, round_, detail = told
+        return self.report(kind, round_, detail=detail)
 
     def report(
         self,
@@ -140,6 +166,16 @@ class Journey:
                 detail=detail,
             )
         )
+
+    def _plan_anew(self) -> Action:
+        """Take on another plan for the same task, if there is one on the map as it is."""
+        itinerary = self.itinerary
+        try:
+            plan = self._settings.planner(itinerary.task, self.pose, itinerary.travel)
+        except PlanningError as error:
+            return self.report_fault(Fault.BLOCKED, str(error))
+        itinerary.plan_anew(plan)
+        return self.report(TaskEventKind.PLAN_CHANGED, self._round)
 
     def _set_out(self, now_s: float) -> list[Action]:
         settings = self._settings
@@ -243,3 +279,7 @@ class Journey:
         off_rad = abs(wrap_angle(actual.yaw_rad - expected.yaw_rad))
         is_near = off_m <= self._settings.position_tolerance_m and off_rad <= _YAW_TOLERANCE_RAD
         return expected if is_near else actual
+
+
+def _foreseen(predicted_s: float, now_s: float) -> str:
+    return f"predicted_s={predicted_s:.9f} error_s={now_s - predicted_s:.9f}"

@@ -19,6 +19,7 @@ from collections.abc import Callable
 from enum import Enum
 from typing import Final
 
+from tlcomm_core.agent.actions import Fault, TaskEventKind
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.protocol.actions import Action
 from tlcomm_core.protocol.negotiation import Negotiation
@@ -50,7 +51,7 @@ class Meeting:
         own: str,
         negotiation: Negotiation,
         team: Team,
-        way_s: Callable[[Strategy], float],
+        leave_by_s: Callable[[TeamStrategy], float],
     ) -> None:
         """Be there.
 
@@ -58,15 +59,17 @@ class Meeting:
             own: this agent's name.
             negotiation: of the next round.
             team: the team.
-            way_s: how long it takes to go straight to a place of the next meeting.
+            leave_by_s: when to leave at the latest to be punctual at what comes next, if that is
+                what the team has confirmed, going straight there.
         """
         self.negotiation: Final = negotiation
         self._told: set[News] = set()
         self._own = own
         self._linger_s = team.linger_s
         self._duration_s = team.duration_s
+        self._window = team.planned_in(negotiation.round)
         self._latest_s = team.confirmable_until_s(negotiation.round)
-        self._way_s = way_s
+        self._leave_by_s = leave_by_s
         self._confirmed_s = math.inf
         self._agreed_s = math.inf
         self._settled_s = math.inf
@@ -81,7 +84,7 @@ class Meeting:
         actions = self.negotiation.proceed(now_s)
         if self.negotiation.confirmed is not None and self._confirmed_s == math.inf:
             self._confirmed_s = now_s
-            self._punctual_s = self._latest_punctual_s(self.negotiation.confirmed)
+            self._punctual_s = self._leave_by_s(self.negotiation.confirmed)
         if self.negotiation.agreed is not None:
             self._agreed_s = min(self._agreed_s, now_s)
         if self.negotiation.is_settled:
@@ -105,7 +108,26 @@ class Meeting:
 
     def own_part(self, strategy: TeamStrategy) -> Strategy:
         """Return this agent's part in a team strategy."""
-        return next(own for own in strategy.strategies if own.agent == self._own)
+        return strategy.part_of(self._own)
+
+    def tell(self, what: News | Ending) -> tuple[TaskEventKind, int, str]:
+        """Return how to report something that has happened here: kind, round and detail."""
+        negotiation = self.negotiation
+        window, round_ = self._window, negotiation.round
+        match what:
+            case News.STARTED:
+                return TaskEventKind.MEETING_STARTED, window, f"t_c_s={negotiation.meeting_s:.9f}"
+            case News.AGREED:
+                agreed = negotiation.agreed
+                return TaskEventKind.ROUND_AGREED, round_ if agreed is None else agreed.round, ""
+            case News.OBSTRUCTED:
+                return TaskEventKind.FAULT, window, f"{Fault.INFEASIBLE}={negotiation.obstacle}"
+            case Ending.AGREED:
+                return TaskEventKind.MEETING_ENDED, window, ""
+            case _:
+                how = "late" if what is News.OVERDUE else what.value
+                detail = f"{Fault.DISAGREEMENT}={how} round={round_}"
+                return TaskEventKind.FAULT, window, detail
 
     @property
     def is_agreed(self) -> bool:
@@ -160,7 +182,3 @@ class Meeting:
         else:
             until_s = max(self.over_s + self._linger_s, self._punctual_s)
         return max(self.over_s, min(until_s, self._latest_s))
-
-    def _latest_punctual_s(self, strategy: TeamStrategy) -> float:
-        """Return when to leave at the latest to be at one's place by the next t_c."""
-        return strategy.communication_s - self._way_s(self.own_part(strategy))

@@ -317,6 +317,7 @@ def create(
             faults=ActionFaults(scenario.faults.action_failure, fault_rng(seed, name)),
             retries=scenario.faults.retries,
         ),
+        site,
     )
     # Free running, a message is heard when it comes; in lock step, one hop's latency after.
     latency_s = scenario.communication.hop_latency_s if pacing is Pacing.EVENT else 0.0

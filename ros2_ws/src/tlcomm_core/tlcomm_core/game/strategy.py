@@ -56,3 +56,7 @@ class TeamStrategy:
     def members(self) -> tuple[str, ...]:
         """Whose strategies these are, sorted."""
         return tuple(own.agent for own in self.strategies)
+
+    def part_of(self, agent: str) -> Strategy:
+        """Return a member's own strategy."""
+        return next(own for own in self.strategies if own.agent == agent)

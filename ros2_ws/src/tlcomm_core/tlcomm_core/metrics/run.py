@@ -49,8 +49,8 @@ class _Run:
     """What the figures of all agents are taken from.
 
     Attributes:
-        held: the meetings agreed on.
-        met: those of them that took place.
+        agreed: what was agreed on: meetings or, by a method without any, turns.
+        met: the meetings that took place.
         windows: all that are decided.
         settled: deviations after the start.
     """
@@ -58,7 +58,8 @@ class _Run:
     scenario: Scenario
     records: RunRecords
     end_ns: int
-    held: tuple[Meeting, ...]
+    has_meetings: bool
+    agreed: tuple[Meeting, ...]
     met: tuple[Meeting, ...]
     lost: Mapping[str, LostTime]
     windows: tuple[Window, ...]
@@ -73,14 +74,16 @@ class _Run:
 
     @classmethod
     def of(cls, scenario: Scenario, records: RunRecords, method: Method, end_ns: int) -> "_Run":
+        agreed = meetings(scenario, records)
+        met = [own for own in agreed if method.has_meetings and own.took_place_by(seconds(end_ns))]
         settled_ns = nanoseconds(SETTLED_PERIODS * scenario.communication.period_s)
-        held = meetings(scenario, records) if method.has_meetings else ()
         return cls(
             scenario=scenario,
             records=records,
             end_ns=end_ns,
-            held=held,
-            met=tuple(meeting for meeting in held if meeting.took_place_by(seconds(end_ns))),
+            has_meetings=method.has_meetings,
+            agreed=agreed,
+            met=tuple(met),
             windows=windows_of(scenario, records, end_ns),
             lost=lost_time(scenario, records),
             ages=information_age(records.connectivity, len(scenario.agents), end_ns),
@@ -127,7 +130,7 @@ def _agent_metrics(run: _Run, name: str) -> AgentMetrics:
         own_work_s=None if lost is None else lost.own_work_s[-1],
         lost_s=None if lost is None else lost.lost_s[-1],
         lost_per_window_s=None if lost is None else lost.per_window_s(period_s),
-        lost_per_meeting_s=None if lost is None else lost.per_meeting_s,
+        lost_per_meeting_s=lost.per_meeting_s if lost and run.has_meetings else None,
         information_age_mean_s=None if run.ages is None else run.ages.mean_of_s(number),
         information_age_max_s=None if run.ages is None else run.ages.most_of_s(number),
         deviation_mean=None if deviation is None else deviation.mean,
@@ -174,9 +177,9 @@ def _team_metrics(run: _Run, agents: Sequence[AgentMetrics]) -> TeamMetrics:
 
 def _computing(run: _Run) -> Computing:
     index = indexed(run.records.timings)
-    agreed = [(timings_of(meeting, index), len(meeting.members)) for meeting in run.held]
-    solve_s = [solve_wall_s(own) for own, _ in agreed]
-    coordination_s = [coordination_wall_s(own, members) for own, members in agreed]
+    known = [(timings_of(own, index), len(own.members)) for own in run.agreed]
+    solve_s = [solve_wall_s(timings) for timings, _ in known]
+    coordination_s = [coordination_wall_s(timings, members) for timings, members in known]
     return Computing(
         solve_wall_s=_mean(time_s for time_s in solve_s if time_s is not None),
         coordination_wall_s=_mean(time_s for time_s in coordination_s if time_s is not None),

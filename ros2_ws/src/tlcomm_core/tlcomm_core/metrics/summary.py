@@ -33,7 +33,7 @@ class Metrics:
         own_work_s: what the steps done take alone.
         lost_s: what they took more than that.
         lost_per_window_s: the same per T_c.
-        lost_per_meeting_s: the same per meeting that ended.
+        lost_per_meeting_s: the same per meeting that ended, by a method with meetings.
         information_age_mean_s: of what agents have of the others, over time.
         information_age_max_s: the largest.
         deviation_mean: of estimates from the field, over time (and agents).
@@ -102,7 +102,7 @@ class TeamMetrics(Metrics):
 
 @dataclass(frozen=True, slots=True)
 class Computing:
-    """What coordination takes in wall time; means over the meetings agreed on.
+    """What coordination takes in wall time; means over the meetings, or turns, agreed on.
 
     Attributes:
         solve_wall_s: own computing of each round's slowest agent.

@@ -53,7 +53,7 @@ class Gathering:
     @property
     def meeting_s(self) -> float:
         """The meeting's beginning t_c by the offers held: final once they are complete."""
-        opens_s = self._team.opens_s(self._round - 1)
+        opens_s = self._team.opens_s(self._team.planned_in(self._round))
         return max(opens_s, *(offer.arrival_s for offer in self.offers))
 
     def hear(self, message: PlanOffer) -> Reception:

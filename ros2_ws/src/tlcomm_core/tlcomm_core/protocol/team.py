@@ -47,6 +47,7 @@ class Team:
         on_infeasible: what to do when a round has no admissible meeting.
         clearance_m: how far from obstacles members see each other for sure, although each may be
             off its place; ``None`` if their radios don't need to see.
+        stride: by how many windows each of its meetings is later than the one before.
     """
 
     members: frozenset[str]
@@ -63,6 +64,7 @@ class Team:
     margin_s: float = ROUNDING_S
     on_infeasible: OnInfeasible = OnInfeasible.STOP
     clearance_m: float | None = None
+    stride: int = 1
 
     def opens_s(self, round_: int) -> float:
         """Return when a round's window opens, r·T_c."""
@@ -72,15 +74,20 @@ class Team:
         """Return a round's window [r·T_c, (r+1)·T_c)."""
         return self.opens_s(round_), self.opens_s(round_ + 1)
 
+    def planned_in(self, round_: int) -> int:
+        """Return the window of the meeting at which a round is planned; 0 is that at t = 0."""
+        return max(0, round_ - self.stride)
+
     @property
     def most_windows(self) -> int:
         """How many windows ahead a meeting may be planned."""
         return 2 if self.on_infeasible is OnInfeasible.SKIP else 1
 
     def confirmable_until_s(self, round_: int) -> float:
-        """Return until when a round may be confirmed by an agent: D_c into its window.
+        """Return until when a round may be confirmed by an agent.
 
-        Then every meeting that began in the window before has lasted for D_c, and T_c − D_c are
-        left to get to the places of this round in its window.
+        That is D_c into the window after that in which it is planned: its own, if the team meets in
+        every window. Then every meeting that began in the window before has lasted for D_c, and
+        T_c − D_c are left to get to the places of another in this one.
         """
-        return self.opens_s(round_) + self.duration_s
+        return self.opens_s(self.planned_in(round_) + 1) + self.duration_s

@@ -5,13 +5,14 @@
 
 import json
 import shutil
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, Self
 
 from tlcomm_core.errors import InputError
-from tlcomm_tools.comparison.job import Job
+from tlcomm_tools.comparison.job import TRACE, Job
+from tlcomm_tools.figures.trace import Trace
 from tlcomm_tools.folder import dumps_json, replace_file, unused_folder
 
 __all__ = ["Archive"]
@@ -109,6 +110,15 @@ class Archive:
             ) from error
         return result
 
+    def traces(self, jobs: Iterable[Job]) -> list[Trace]:
+        """Return what figures are drawn from, of those jobs that are done and to be drawn.
+
+        Raises:
+            InputError: such a file can't be read.
+        """
+        paths = [self.folder(job) / TRACE for job in jobs if job.is_drawn]
+        return [Trace.from_json(path.read_text("utf-8")) for path in paths]
+
     def write(self, name: str, text: str) -> None:
         """Write a file of the whole comparison."""
         replace_file(self.path / name, text)
@@ -116,6 +126,13 @@ class Archive:
     def _part(self, job: Job) -> Path:
         folder = self.folder(job)
         return folder.with_name(f".{folder.name}.part")
+
+    @property
+    def figures(self) -> Path:
+        """The folder of the figures."""
+        path = self.path / "figures"
+        path.mkdir(exist_ok=True)
+        return path
 
     @property
     def _terms(self) -> Path:

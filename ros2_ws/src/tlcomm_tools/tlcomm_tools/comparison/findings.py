@@ -17,7 +17,7 @@ from tlcomm_core.method import Method
 from tlcomm_tools.bootstrap import CONFIDENCE, estimate_mean
 from tlcomm_tools.comparison.design import Design
 from tlcomm_tools.comparison.job import Job
-from tlcomm_tools.comparison.measures import MEASURES, figures_of
+from tlcomm_tools.comparison.measures import MEASURES, SHOWN, figures_of
 
 __all__ = ["FORMAT", "Row", "csv_text", "document", "table_rows"]
 
@@ -75,6 +75,7 @@ def document(design: Design, rows: Sequence[Row]) -> dict[str, Any]:
         "seeds": design.seeds,
         "confidence": CONFIDENCE,
         "sweep": None if sweep is None else {"name": sweep.name, "values": list(sweep.values)},
+        "measures": {key: asdict(measure) for key, measure in SHOWN.items()},
         "runs": [_run(row) for row in rows],
         "points": [_point(value, own) for value, own in _by_value(rows)],
     }

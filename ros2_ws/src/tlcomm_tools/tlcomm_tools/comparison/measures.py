@@ -1,8 +1,8 @@
 """What methods are compared by: the team's metrics, as results have them.
 
 ``MEASURES``    their keys
-``SHOWN``       those that tables show, and how
-``Measure``     how a table shows one
+``SHOWN``       those that tables and figures show, and how
+``Measure``     how one is shown
 ``figures_of``  all of a run
 """
 
@@ -25,36 +25,34 @@ MEASURES: Final = (
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """How a table shows a measure.
+    """How tables and figures show a measure.
 
     Attributes:
         label: for people, with the unit.
         digits: after the point.
-        per: what it is divided by.
     """
 
     label: str
     digits: int
-    per: float = 1.0
 
 
 SHOWN: Final[Mapping[str, Measure]] = MappingProxyType(
     {
-        "additional_s": Measure("additional time/s", 2),
-        "lost_per_window_s": Measure("lost per window/s", 2),
-        "makespan_sum_s": Measure("Σ makespan/s", 1),
-        "tasks_per_hour": Measure("tasks/h", 1),
+        "additional_s": Measure("additional time (s)", 2),
+        "lost_per_window_s": Measure("lost per window (s)", 2),
+        "makespan_sum_s": Measure("sum of makespans (s)", 1),
+        "tasks_per_hour": Measure("tasks per hour", 1),
         "meetings": Measure("meetings", 1),
         "windows_kept": Measure("windows kept", 1),
         "windows_missed": Measure("windows missed", 1),
-        "information_age_mean_s": Measure("age of information/s", 1),
-        "deviation_max": Measure("deviation, largest", 3),
-        "deviation_mean": Measure("deviation, mean", 3),
-        "distance_m": Measure("distance/m", 0),
+        "information_age_mean_s": Measure("age of information (s)", 1),
+        "deviation_max": Measure("largest deviation", 3),
+        "deviation_mean": Measure("mean deviation", 3),
+        "distance_m": Measure("distance (m)", 0),
         "messages": Measure("messages", 0),
-        "bytes": Measure("traffic/MB", 2, 1e6),
-        "solve_wall_s": Measure("solving/ms", 1, 1e-3),
-        "wall_s": Measure("run/s", 1),
+        "bytes": Measure("bytes", 0),
+        "solve_wall_s": Measure("solving (s)", 4),
+        "wall_s": Measure("wall time (s)", 1),
     }
 )
 

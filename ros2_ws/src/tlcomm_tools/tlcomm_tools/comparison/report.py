@@ -85,7 +85,7 @@ def _interval(estimate: Mapping[str, Any] | None, measure: Measure) -> str:
 
 
 def _number(value: float, measure: Measure) -> str:
-    return f"{value / measure.per:z.{measure.digits}f}"
+    return f"{value:z.{measure.digits}f}"
 
 
 def _flaws(found: Mapping[str, Any], bullet: str) -> Iterator[str]:

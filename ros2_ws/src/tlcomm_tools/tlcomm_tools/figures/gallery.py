@@ -18,7 +18,7 @@ from tlcomm_tools.figures.heat_map import heat_map_figure
 from tlcomm_tools.figures.measured import measured
 from tlcomm_tools.figures.metric_dots import metric_dots_figure
 from tlcomm_tools.figures.schedule import schedule_figure
-from tlcomm_tools.figures.style import save, styled
+from tlcomm_tools.figures.style import in_order, save, styled
 from tlcomm_tools.figures.sweep import sweep_figure
 from tlcomm_tools.figures.topologies import topologies_figure
 from tlcomm_tools.figures.trace import Trace
@@ -68,13 +68,15 @@ def draw_comparison(
     Raises:
         OSError: a file can't be written.
     """
+    rank = in_order({trace.method for trace in traces}).index
+    shown = sorted(traces, key=lambda trace: rank(trace.method))
     measures = () if found is None else measured(found)
     with styled():
         figures = {}
-        if any(trace.additional_times for trace in traces):
-            figures["additional_time"] = additional_time_figure(traces)
-        if any(trace.estimates for trace in traces):
-            figures["estimates"] = estimates_figure(traces)
+        if any(trace.additional_times for trace in shown):
+            figures["additional_time"] = additional_time_figure(shown)
+        if any(trace.estimates for trace in shown):
+            figures["estimates"] = estimates_figure(shown)
         if measures:
             figures["metrics"] = metric_dots_figure(measures)
         return _written(figures, folder)

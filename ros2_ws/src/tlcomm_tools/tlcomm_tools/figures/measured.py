@@ -9,6 +9,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from tlcomm_tools.figures.style import in_order
+
 __all__ = ["Mark", "Measured", "measured"]
 
 
@@ -53,7 +55,7 @@ def measured(found: Mapping[str, Any]) -> tuple[Measured, ...]:
 
 
 def _measured(found: Mapping[str, Any], key: str, label: str) -> Measured:
-    methods = dict.fromkeys(method for point in found["points"] for method in point["means"])
+    methods = {method for point in found["points"] for method in point["means"]}
     return Measured(
         label,
         {
@@ -62,7 +64,7 @@ def _measured(found: Mapping[str, Any], key: str, label: str) -> Measured:
                 for point in found["points"]
                 if (estimate := point["means"].get(method, {}).get(key)) is not None
             )
-            for method in methods
+            for method in in_order(methods)
         },
     )
 

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from tlcomm_core.method import parse_method
 from tlcomm_tools.figures.elements import Activity, Span
 from tlcomm_tools.figures.style import PAGE_IN, agent_labels, new_figure
 from tlcomm_tools.figures.trace import Trace
@@ -16,6 +17,7 @@ from tlcomm_tools.figures.trace import Trace
 __all__ = ["schedule_figure"]
 
 _ROUNDS: Final = (0, 5)
+_MOST_AGENTS: Final = 24
 _HEIGHT: Final = 0.72
 # Face and hatch of an action, in the order in which they first occur; then of the rest.
 _ACTIONS: Final = (
@@ -23,6 +25,9 @@ _ACTIONS: Final = (
     ("#f0e442", "////"),
     ("#009e73", "...."),
     ("#cc79a7", "xxxx"),
+    ("#e69f00", "\\\\\\\\"),
+    ("#ffffff", "||||"),
+    ("#0072b2", "----"),
 )
 _MEETING: Final = ("#303030", "")
 _WAIT: Final = ("white", "")
@@ -30,7 +35,7 @@ _Look = tuple[str, str]
 
 
 def schedule_figure(trace: Trace, rounds: tuple[int, int] = _ROUNDS) -> Figure:
-    """Draw actions, waits and meetings of every agent in a stretch of rounds.
+    """Draw actions, waits and meetings of each agent, or of the first, in a stretch of rounds.
 
     Args:
         trace: a run.
@@ -38,7 +43,7 @@ def schedule_figure(trace: Trace, rounds: tuple[int, int] = _ROUNDS) -> Figure:
     """
     first_s = rounds[0] * trace.period_s
     last_s = min((rounds[1] + 1) * trace.period_s, trace.end_s)
-    names = tuple(trace.spans)
+    names = tuple(trace.spans)[:_MOST_AGENTS]
     figure = new_figure(PAGE_IN, 0.9 + 0.2 * len(names))
     axes = figure.add_subplot()
     looks = _looks(trace)
@@ -51,7 +56,7 @@ def schedule_figure(trace: Trace, rounds: tuple[int, int] = _ROUNDS) -> Figure:
     _draw_windows(axes, trace, rounds)
     axes.set_xlim(first_s, last_s)
     axes.set_ylim(len(names) - 0.4, -0.7)
-    labels = agent_labels(names)
+    labels = agent_labels(tuple(trace.spans))
     axes.set_yticks(range(len(names)), [labels[name] for name in names])
     axes.set_xlabel("time (s)")
     axes.set_ylabel("agent")
@@ -90,13 +95,15 @@ def _draw_span(axes: Axes, row: int, span: Span, look: _Look) -> None:
 
 
 def _draw_windows(axes: Axes, trace: Trace, rounds: tuple[int, int]) -> None:
+    """Draw where windows begin, and which ones were missed by a method that keeps them."""
+    missed = trace.missed_rounds if parse_method(trace.method).keeps_windows else ()
     for number in range(rounds[0], rounds[1] + 1):
         opens_s = number * trace.period_s
         if opens_s < trace.end_s:
             axes.axvline(opens_s, color="#909090", linewidth=0.6, linestyle="--", zorder=0.5)
-            missed = " missed" if number in trace.missed_rounds else ""
+            flaw = " missed" if number in missed else ""
             axes.annotate(
-                f"window {number}{missed}",
+                f"window {number}{flaw}",
                 (opens_s, 1.0),
                 xycoords=("data", "axes fraction"),
                 xytext=(2.0, 1.0),

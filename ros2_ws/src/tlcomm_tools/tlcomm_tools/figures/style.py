@@ -2,8 +2,11 @@
 
 ``COLUMN_IN``   width of a column
 ``PAGE_IN``     width of a page
+``OBSTACLE_GREY``  face of obstacles
+``HATCH_GREY``  their hatching
 ``LineStyle``   how a line is told from others
 ``method_line`` a method's
+``in_order``    methods as figures show them
 ``agent_line``  an agent's
 ``agent_labels``  short names of agents
 ``styled``      the style, while figures are made and saved
@@ -13,25 +16,26 @@
 """
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from matplotlib import rc_context
+from matplotlib import rc_context, rcdefaults, rcParams
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import EngFormatter
 
 __all__ = [
     "COLUMN_IN",
-    "GRID_GREY",
+    "HATCH_GREY",
     "OBSTACLE_GREY",
     "PAGE_IN",
     "LineStyle",
     "agent_labels",
     "agent_line",
+    "in_order",
     "method_line",
     "new_figure",
     "save",
@@ -41,8 +45,8 @@ __all__ = [
 
 COLUMN_IN: Final = 3.5
 PAGE_IN: Final = 7.16
-OBSTACLE_GREY: Final = "#c8c8c8"
-GRID_GREY: Final = "#dddddd"
+OBSTACLE_GREY: Final = "#e6e6e6"
+HATCH_GREY: Final = "#a8a8a8"
 
 _DOTS_PER_INCH: Final = 220
 _LARGE: Final = 10_000.0
@@ -60,7 +64,7 @@ _RC: Final[dict[Any, Any]] = {
     "axes.linewidth": 0.6,
     "axes.axisbelow": True,
     "axes.grid": False,
-    "grid.color": GRID_GREY,
+    "grid.color": "#dddddd",
     "grid.linewidth": 0.5,
     "xtick.major.width": 0.6,
     "ytick.major.width": 0.6,
@@ -120,6 +124,11 @@ def method_line(method: str) -> LineStyle:
     return _METHODS[method]
 
 
+def in_order(methods: Iterable[str]) -> list[str]:
+    """Return methods in the order in which figures show them, the team's way first."""
+    return sorted(methods, key=list(_METHODS).index)
+
+
 def agent_line(index: int) -> LineStyle:
     """Return how the line of the agent with this index in the team looks."""
     return _AGENTS[index % len(_AGENTS)]
@@ -134,8 +143,13 @@ def agent_labels(agents: Sequence[str]) -> dict[str, str]:
 
 @contextmanager
 def styled() -> Iterator[None]:
-    """Let figures that are made and saved inside have this style; matplotlib's own is untouched."""
-    with rc_context(_RC):
+    """Let figures that are made and saved inside have this style, whatever the user's is.
+
+    Outside, it is as it was.
+    """
+    with rc_context():
+        rcdefaults()
+        rcParams.update(_RC)
         yield
 
 
@@ -157,6 +171,9 @@ def save(figure: Figure, folder: Path, name: str) -> tuple[Path, Path]:
         OSError: a file can't be written.
     """
     vector, raster = folder / f"{name}.svg", folder / f"{name}.png"
+    # Finding out what room labels need takes most of the time, and is the same for both.
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
     figure.savefig(vector, metadata={"Date": None})
     figure.savefig(raster, metadata={"Software": None})
     return vector, raster

@@ -5,11 +5,11 @@ command with the same --out goes on where it was interrupted.
 """
 
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from tlcomm_core.agent.planner import check_tasks
 from tlcomm_core.errors import InputError
@@ -22,6 +22,7 @@ from tlcomm_tools.comparison.design import Design, jobs_of
 from tlcomm_tools.comparison.execution import run_missing
 from tlcomm_tools.comparison.findings import Row, csv_text, document
 from tlcomm_tools.comparison.interruption import held_interruption
+from tlcomm_tools.comparison.job import Job
 from tlcomm_tools.comparison.report import format_findings, markdown
 from tlcomm_tools.comparison.sweep import QUANTITIES, Sweep, parse_sweep
 from tlcomm_tools.comparison.workers import local_workers
@@ -125,6 +126,8 @@ def run(options: Namespace) -> Status:
     archive.write("comparison.json", dumps_json(found))
     archive.write("comparison.csv", csv_text(found))
     archive.write("comparison.md", markdown(found))
+    done = [row.job for row in rows if row.result is not None]
+    _draw(found, archive, done)
     if options.json:
         print_json({**found, "folder": str(archive.path)})
     else:
@@ -141,6 +144,21 @@ def _workers(options: Namespace) -> Iterator[Executor | None]:
     address = options.scheduler
     with local_workers() if address is None else remote_workers(address) as workers:
         yield workers
+
+
+def _draw(found: Mapping[str, Any], archive: Archive, done: Sequence[Job]) -> None:
+    """Draw the first seed's methods side by side and the team's run by itself, or the sweep."""
+    # Not for those whose options are refused: matplotlib takes its time.
+    from tlcomm_tools.figures.gallery import draw_comparison, draw_run, draw_sweep  # noqa: PLC0415
+
+    if found["sweep"] is None:
+        traces = archive.traces(done)
+        draw_comparison(traces, archive.figures, found)
+        for trace in traces:
+            if trace.method == Method.TEAM:
+                draw_run(trace, archive.figures)
+    else:
+        draw_sweep(found, archive.figures, QUANTITIES[found["sweep"]["name"]].label)
 
 
 def _methods(text: str) -> tuple[Method, ...]:
