@@ -171,11 +171,11 @@ def test_a_link_that_comes_again_begins_anew() -> None:
     team.read({"a": 4.0})
     team.link(["ab"])
     team.run()
-    assert team.values == {"a": 2.75, "b": 2.75}
+    assert team.values == {"a": 3.0, "b": 3.0}
 
 
 def test_a_reading_in_a_silent_team_is_spread() -> None:
-    """It takes the estimate's place, and the sum of all changes by just that."""
+    """It shifts the estimate, and the sum of all changes by just that."""
     team = EstimatingTeam("abc")
     team.read({"a": 3.0, "b": 3.0, "c": 3.0})
     team.link(["ab", "bc"])

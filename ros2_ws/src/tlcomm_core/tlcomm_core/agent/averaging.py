@@ -57,7 +57,13 @@ class Averaging(ABC):
 
 
 class Consensus(Averaging):
-    """Weighted steps towards what neighbours say: x_i ← x_i + Σ_j ε_ij (x_j − x_i).
+    """Weighted steps towards what neighbours say, x_i ← x_i + Σ_j ε_ij (x_j − x_i), and by readings.
+
+    An agent's first reading is its estimate. A later one shifts the estimate by what it differs
+    from the one before, x_i ← x_i + (u_i' − u_i). So the sum of all estimates is that of all newest
+    readings: the team follows their average, though each goes on measuring at its own station, and
+    what that station's own error is cancels out once and for all. Were the reading to take the
+    estimate's place, each measurement would throw away what the team has come to.
 
     The sum is over neighbours whose values differ by more than a tolerance, so it is the protocol
     on the graph of these links alone, and comes to rest: where it changes anything, it lessens
@@ -77,9 +83,11 @@ class Consensus(Averaging):
         ε < 1/Δ on a connected undirected graph, Δ its largest number of neighbours; for links that
         change see its Section III. The local weights are the Metropolis weights of L. Xiao,
         S. Boyd and S. Lall, "A Scheme for Robust Distributed Sensor Fusion Based on Average
-        Consensus", IPSN 2005.
+        Consensus", IPSN 2005. Readings: M. Zhu and S. Martínez, "Discrete-time Dynamic Average
+        Consensus", Automatica 46(2), 2010, first order; after D. P. Spanos, R. Olfati-Saber and
+        R. M. Murray, "Dynamic Consensus on Mobile Networks", IFAC World Congress 2005.
     Deviates: differences within the tolerance count as none. Agents that have no value yet take the
-        mean of what they hear.
+        mean of what they hear, until their first reading.
     """
 
     def __init__(self, own: str, step: float | None, tolerance: float) -> None:
@@ -94,6 +102,7 @@ class Consensus(Averaging):
         self._step: Final = step
         self._tolerance: Final = tolerance
         self._estimate: float | None = None
+        self._measured: float | None = None
 
     @property
     def estimate(self) -> float | None:
@@ -101,9 +110,13 @@ class Consensus(Averaging):
         return self._estimate
 
     def measure(self, value: float, time_ns: int) -> None:
-        """Let a measurement take the estimate's place."""
+        """Shift the estimate by what a measurement differs from the last; the first replaces it."""
         del time_ns
-        self._estimate = value
+        before, self._measured = self._measured, value
+        if self._estimate is None or before is None:
+            self._estimate = value
+        else:
+            self._estimate += value - before
 
     def moving(
         self, said: EstimateExchange | None, heard: Iterable[EstimateExchange]
