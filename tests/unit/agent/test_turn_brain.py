@@ -41,7 +41,7 @@ def records() -> RunRecords:
 
 
 def test_turns_go_round(records: RunRecords) -> None:
-    """By name, each with the steps that its agent has next at one place: a visit and an action."""
+    """By name, each with the steps of its agent up to its next action: a visit and an action."""
     turns = [(own.round, name) for name, own in events_of(records, *STEPS)]
     by_turn = [(turn, [name for _, name in own]) for turn, own in groupby(turns, lambda t: t[0])]
     names = ("one", "three", "two")

@@ -44,6 +44,11 @@ class TurnTeam(Team):
         """Return a round's window, [0, ∞)."""
         return self.opens_s(round_), math.inf
 
+    def horizon_s(self, window: int, departure_s: float) -> float:
+        """Return how far offers look ahead: T_c, in which any agent gets to its next action."""
+        del window, departure_s
+        return self.period_s
+
     def confirmable_until_s(self, round_: int) -> float:
         """Return until when a round may be confirmed: for ever, as nobody goes before."""
         del round_
