@@ -1,20 +1,26 @@
 """How far an agent goes on with its plan before it leaves for the meeting."""
 
+import math
+
 import pytest
 
 from support.small_plant import START, SmallPlant
+from tlcomm_core.agent.convoy import AgreedLeg
 from tlcomm_core.agent.itinerary import Itinerary
 from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.geometry import Pose
 from tlcomm_core.ltl import parse
 from tlcomm_core.planning.synthesis import plan_task
+from tlcomm_core.workspace.grid import Grid
+from tlcomm_core.workspace.travel import Leg, TravelTimes
 
 PLANT = SmallPlant()
 PLAN = plan_task(parse("G F ((p & collect) & F (r & unload))"), PLANT.system())
 # Whose attempt fails, at the region of the step.
 STEP = next(index for index in range(10) if PLAN.step(index).action == "collect")
 PLACE = Pose(1.75, 0.25, 0.0)
+AWAY = Pose(3.25, 2.75, 0.0)
 RETRIES = 2
 
 
@@ -117,3 +123,43 @@ def test_without_a_meeting_ahead_steps_follow_one_another() -> None:
         itinerary.finish_step()
     with pytest.raises(LocalMisuseError, match="before any meeting"):
         itinerary.meeting_pose(pose)
+
+
+def test_an_agreed_way_is_gone_at_the_agreed_hours() -> None:
+    """From where it begins, be it to the meeting or to a step; from elsewhere, and once the meeting
+    is reached, the shortest way at any time.
+    """
+    itinerary = Itinerary(PLAN, PLANT.times, RETRIES)
+    meeting = Strategy("one", PLACE.x_m, PLACE.y_m, 0, 100.0, 0.0)
+    round_about = Leg(((AWAY.x_m + 0.5, AWAY.y_m), (AWAY.x_m, AWAY.y_m)), 9.0, 1.0, AWAY)
+    itinerary.agree(meeting, math.inf, AgreedLeg(AWAY, round_about, 20.0, 30.0))
+    for goal in (meeting, None):
+        leg = itinerary.leg(AWAY, goal)
+        assert leg is round_about
+        assert itinerary.hours(leg) == (20.0, 30.0)
+    elsewhere = itinerary.leg(itinerary.leg(PLACE, None).arrival, meeting)
+    assert elsewhere.arrival.distance_m(PLACE.x_m, PLACE.y_m) == 0.0
+    assert itinerary.hours(elsewhere) == (-math.inf, -math.inf)
+    itinerary.reach_meeting()
+    assert itinerary.leg(AWAY, meeting) is not round_about
+
+
+def test_an_agreed_way_that_the_map_has_closed_isnt_gone() -> None:
+    """Another one is, that all who agreed find alike: into the place, not out of the own pose."""
+    itinerary = Itinerary(PLAN, PLANT.times, RETRIES)
+    meeting = Strategy("one", PLACE.x_m, PLACE.y_m, 0, 100.0, 0.0)
+    place = PLANT.times.grid.location_at(PLACE.x_m, PLACE.y_m)
+    assert place is not None
+    agreed = PLANT.times.leg_from(AWAY, place)
+    itinerary.agree(meeting, math.inf, AgreedLeg(AWAY, agreed, 20.0, 30.0))
+    assert itinerary.leg(AWAY, meeting) is agreed
+    grid, (x_m, y_m) = PLANT.times.grid, agreed.waypoints_m[0]
+    half_m = grid.cell_m / 2.0
+    box = (x_m - half_m, y_m - half_m, x_m + half_m, y_m + half_m)
+    closed = Grid(grid.size_m, grid.cell_m, [*grid.boxes.tolist(), box], grid.origin_m)
+    travel = TravelTimes(closed, PLANT.times.motion)
+    itinerary.change_map(travel, AWAY)
+    leg = itinerary.leg(AWAY, meeting)
+    assert leg is not agreed
+    target = closed.location_at(PLACE.x_m, PLACE.y_m)
+    assert target is None or leg == travel.leg_to(AWAY, target)

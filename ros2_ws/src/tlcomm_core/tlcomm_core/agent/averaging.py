@@ -57,7 +57,7 @@ class Averaging(ABC):
 
 
 class Consensus(Averaging):
-    """Weighted steps towards what neighbours say, x_i ← x_i + Σ_j ε_ij (x_j − x_i), and by readings.
+    """Weighted steps towards what neighbours say: x_i ← x_i + Σ_j ε_ij (x_j − x_i); and readings.
 
     An agent's first reading is its estimate. A later one shifts the estimate by what it differs
     from the one before: x_i ← x_i + (u_i' − u_i). So the sum of all estimates is that of the newest

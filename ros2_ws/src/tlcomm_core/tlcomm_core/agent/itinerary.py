@@ -66,6 +66,7 @@ class Itinerary:
         self._retries: Final = retries
         self._meeting: Strategy | None = None
         self._agreed_leg: AgreedLeg | None = None
+        self._goes_together = False
         self._meeting_s = 0.0
         self._failures = 0
         self._is_delayed = False
@@ -93,6 +94,7 @@ class Itinerary:
         """
         self._meeting = meeting
         self._agreed_leg = agreed_leg
+        self._goes_together = agreed_leg is not None
         self._meeting_s = meeting_s
         self._failures = 0
         self._is_delayed = False
@@ -174,6 +176,7 @@ class Itinerary:
         """Note that the step has been done."""
         self.done += 1
         self._failures = 0
+        self._agreed_leg = None
 
     def fail_step(self) -> int:
         """Note that the step's action has failed; return how often it has since the meeting."""
@@ -238,7 +241,7 @@ class Itinerary:
         if target is None:
             return Leg((), 0.0, 0.0, pose)
         # Those who agreed to go together find the same way anew.
-        if meeting is None or agreed is not None:
+        if meeting is None or self._goes_together:
             return self._ways.leg_to(pose, target)
         return self._ways.leg_from(pose, target)
 
