@@ -90,6 +90,7 @@ ESTIMATES = st.builds(
     NAMES,
     UINT32,
     st.integers(0, 2**16 - 1),
+    st.booleans(),
     FLOATS,
     st.lists(MEASUREMENTS, max_size=4).map(tuple),
 )
@@ -254,7 +255,7 @@ def response_message() -> RosMessage:
 def estimate_message() -> RosMessage:
     """Return a well-formed estimate with one measurement."""
     known = (Measurement("a", 2.0, 3),)
-    return wire_messages.encode_message(EstimateExchange("b", 1, 2, 3.0, known), 0)
+    return wire_messages.encode_message(EstimateExchange("b", 1, 2, False, 3.0, known), 0)
 
 
 def assign(message: RosMessage, path: str, value: object) -> RosMessage:

@@ -49,6 +49,16 @@ def test_it_begins_with_the_first_estimate() -> None:
     assert found == {"two": Deviation(mean=1.5, most=2.0, span_s=10.0)}
 
 
+def test_what_was_before_a_beginning_does_not_count() -> None:
+    """From 5 s on the field rises from 4.5 to 7 in 5 s; the estimate is 2 until 10 s, then 7."""
+    held = estimates("one", (0.0, 2.0), (10.0, 7.0))
+    found = deviations(scenario(*RISE), held, nanoseconds(20.0), nanoseconds(5.0))
+    assert found == {"one": Deviation(mean=0.5 * (2.5 + 5.0) * 5.0 / 15.0, most=5.0, span_s=15.0)}
+    late = deviations(scenario(*RISE), held, nanoseconds(20.0), nanoseconds(12.0))
+    assert late == {"one": Deviation(mean=0.0, most=0.0, span_s=8.0)}
+    assert deviations(scenario(*RISE), held, nanoseconds(20.0), nanoseconds(20.0)) == {}
+
+
 def test_of_several_at_one_time_the_last_counts() -> None:
     """And none that came when the run was over."""
     held = estimates("one", (10.0, 0.0), (10.0, 6.0), (20.0, 50.0))

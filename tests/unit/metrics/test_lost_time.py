@@ -4,10 +4,14 @@ import math
 
 import pytest
 
+from support.gate import OPENED_S, SHUT_S, gate
 from support.hand_made_run import hand_made_records, hand_made_scenario, task
 from tlcomm_core.agent.actions import TaskEventKind
+from tlcomm_core.geometry import Pose
 from tlcomm_core.metrics.lost_time import LostTime, lost_time
 from tlcomm_core.records import RunRecords
+from tlcomm_core.units import nanoseconds
+from tlcomm_core.world.observation import Odometry
 
 PERIOD_S = 10.0
 
@@ -61,3 +65,17 @@ def test_without_odometry_nothing_is_known() -> None:
     records = hand_made_records()
     records.odometry = [own for own in records.odometry if own.agent == "west"]
     assert lost_time(hand_made_scenario(), records).keys() == {"west"}
+
+
+@pytest.mark.parametrize(("there_s", "is_known"), [(OPENED_S - 5.0, False), (OPENED_S + 5.0, True)])
+def test_the_way_is_one_that_was_open_in_between(there_s: float, is_known: bool) -> None:
+    """From one room, shut by then, to the other: known once the way there has been opened."""
+    visited, here_s = TaskEventKind.REGION_VISITED, SHUT_S + 1.0
+    records = RunRecords(
+        tasks=[task(time_s, "one", visited) for time_s in (here_s, there_s)],
+        odometry=[
+            Odometry(nanoseconds(time_s), "one", Pose(x_m, 1.25, 0.0), 0.0, 0.0)
+            for time_s, x_m in ((0.0, 2.75), (here_s, 0.75), (there_s, 7.25))
+        ],
+    )
+    assert ("one" in lost_time(gate(), records)) is is_known

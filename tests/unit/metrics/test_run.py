@@ -51,6 +51,7 @@ def test_an_agents_figures() -> None:
         "information_age_max_s": 6.0,
         "deviation_mean": None,
         "deviation_max": None,
+        "deviation_settled_max": None,
         "distance_m": 10.0,
         "messages": MESSAGES["east"],
         "bytes": BYTES["east"],
@@ -150,11 +151,16 @@ def test_estimates_are_compared_with_the_field() -> None:
     records.estimates = [
         EstimateRecord(nanoseconds(5.0), "east", 5.0, 5.0, has_measurement=True),
         EstimateRecord(nanoseconds(15.0), "west", 2.0, 2.0, has_measurement=True),
+        EstimateRecord(nanoseconds(20.0), "west", 2.0, 2.0, has_measurement=True),
     ]
     found = run_metrics(scenario, records, Method.TEAM, nanoseconds(END_S))
     assert (found.agents["east"].deviation_mean, found.agents["west"].deviation_max) == (1.0, 2.0)
     assert found.team.deviation_mean == pytest.approx((20.0 * 1.0 + 10.0 * 2.0) / 30.0)
     assert found.team.deviation_max == 2.0
+    records.estimates[-1] = replace(records.estimates[-1], value=4.5)
+    found = run_metrics(scenario, records, Method.TEAM, nanoseconds(END_S))
+    assert found.agents["west"].deviation_settled_max == 0.5
+    assert (found.team.deviation_max, found.team.deviation_settled_max) == (2.0, 1.0)
 
 
 def test_nothing_recorded_is_a_document() -> None:

@@ -49,12 +49,13 @@ def test_what_a_run_does_not_have_is_left_out() -> None:
     result["metrics"]["team"] |= {
         "additional_s": None,
         "deviation_mean": 0.1234,
-        "deviation_max": 0.8201,
+        "deviation_max": 1.0201,
+        "deviation_settled_max": 0.8201,
     }
     text = format_summary(result, RunFolder(Path("runs/x")), has_bag=False)
     assert "additional time" not in text
     assert "  lost time        9.0 s of each window\n" in text
-    assert "  deviation        0.123 on average, at most 0.820\n" in text
+    assert "  deviation        0.123 on average, at most 1.020, 0.820 once settled\n" in text
 
 
 def test_long_runs_and_long_verdicts_are_cut() -> None:

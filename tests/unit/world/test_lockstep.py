@@ -5,10 +5,12 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
+from tlcomm_core.field.field import Field
+from tlcomm_core.field.sensors import Sensors
 from tlcomm_core.geometry import Pose
 from tlcomm_core.workspace.grid import Grid
 from tlcomm_core.world.lockstep import LockStep, Reply, Step, StopRule
-from tlcomm_core.world.observation import Odometry
+from tlcomm_core.world.observation import Odometry, Reading
 from tlcomm_core.world.world import Body, Noise, World
 
 MS = 1_000_000
@@ -75,6 +77,33 @@ def test_only_those_that_are_due_are_ticked() -> None:
     assert (step.time_ns, step.ticked) == (200 * MS, ("b",))
     steps.complete({"b": reply(400 * MS)})
     assert next_ticked(steps).time_ns == 300 * MS
+
+
+def test_who_measures_is_ticked_again_at_once() -> None:
+    """With its reading to see; nobody else is, nor who isn't at the station."""
+    steps = lockstep(0.5, 3.0)
+    steps._world.equip(Sensors(Field(((0.0, 7.0),), {"m": 0.0}), {"m": (0.5, 0.5, 0.1)}))
+    step = steps.next_step()
+    assert step is not None
+    done = Reply(None, 0, None, 0, measured_at="m")
+    assert steps.complete({"a": done, "b": done}) == (Reading(0, "a", "m", 7.0),)
+    again = steps.next_step()
+    assert again is not None
+    assert (again.time_ns, again.ticked) == (0, ("a",))
+    steps.complete({"a": IDLE})
+    assert next_ticked(steps).time_ns == CHANGE
+
+
+def test_who_comes_into_range_is_ticked_if_there_is_anything_to_measure() -> None:
+    """When the link comes, not when it goes; without sensors nobody is."""
+    for is_measured, ticked in ((True, ("a", "b")), (False, ("a", "b", "c"))):
+        steps = lockstep(0.5, 3.0, 19.0)
+        if is_measured:
+            steps._world.equip(Sensors(Field(((0.0, 7.0),), {"m": 0.0}), {"m": (0.5, 0.5, 0.1)}))
+        begun(steps, {"a": reply(None, command=(1.0, 0.0))})
+        step = next_ticked(steps)
+        assert step.ticked == ticked
+        assert step.time_ns == (1500 * MS if is_measured else CHANGE)
 
 
 def test_two_due_at_one_instant_are_ticked_in_the_scenarios_order() -> None:

@@ -129,6 +129,7 @@ def encode_message(message: TeamMessage, stamp_ns: int) -> _RosMessage:
                 sender=message.sender,
                 step=message.step,
                 neighbours=message.neighbours,
+                asks=message.asks,
                 value=message.value,
                 known=[
                     msg.Measurement(agent=each.agent, value=each.value, stamp=each.time_ns)
@@ -195,6 +196,7 @@ def decode_message(message: _RosMessage) -> tuple[TeamMessage, int]:
                 sender=sender,
                 step=message.step,
                 neighbours=message.neighbours,
+                asks=message.asks,
                 value=finite(message.value, "value"),
                 known=tuple(
                     _decode_measurement(each)

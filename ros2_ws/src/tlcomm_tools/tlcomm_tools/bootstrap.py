@@ -49,18 +49,21 @@ def estimate_mean(values: Sequence[float]) -> Estimate | None:
     """
     if not values:
         return None
-    mean = float(np.mean(values))
+    mean, least, spread = float(np.mean(values)), min(values), max(values) - min(values)
     if len(values) == 1:
         return Estimate(mean, None, None, 1)
-    if max(values) == min(values):
+    if spread == 0.0:
         # All resamples are alike, and have no quantiles to correct.
         return Estimate(mean, mean, mean, len(values))
+    # From 0 to 1, so that squares and cubes neither vanish nor overflow.
+    scaled = (np.asarray(values) - least) / spread
     interval = bootstrap(
-        (np.asarray(values),),
+        (scaled,),
         np.mean,
         n_resamples=_RESAMPLES,
         confidence_level=CONFIDENCE,
         method="BCa",
         rng=np.random.default_rng(_SEED),
     ).confidence_interval
-    return Estimate(mean, float(interval.low), float(interval.high), len(values))
+    low, high = (least + float(end) * spread for end in (interval.low, interval.high))
+    return Estimate(mean, low, high, len(values))

@@ -76,7 +76,8 @@ def _format_metrics(team: Mapping[str, Any]) -> list[str]:
         ),
         "deviation_max": (
             f"deviation        {told('deviation_mean', 3, '')} on average, "
-            f"at most {told('deviation_max', 3, '')}"
+            f"at most {told('deviation_max', 3, '')}, "
+            f"{told('deviation_settled_max', 3, '')} once settled"
         ),
     }
     return [f"  {line}" for key, line in lines.items() if team[key] is not None]

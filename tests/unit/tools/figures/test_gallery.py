@@ -64,6 +64,13 @@ def test_a_comparison_has_its_figures(trace: Trace, tmp_path: Path) -> None:
     )
 
 
+def test_methods_are_in_one_order(trace: Trace, tmp_path: Path) -> None:
+    """In whichever order their runs come."""
+    traces = [trace, trace.model_copy(update={"method": "static"})]
+    before = [path.read_bytes() for path in draw_comparison(traces, tmp_path)]
+    assert [path.read_bytes() for path in draw_comparison(traces[::-1], tmp_path)] == before
+
+
 def test_a_comparison_of_nothing_draws_nothing(trace: Trace, tmp_path: Path) -> None:
     """Where nobody met and nothing was measured, or measured."""
     lone = trace.model_copy(update={"additional_times": (), "estimates": {}})

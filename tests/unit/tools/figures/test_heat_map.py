@@ -8,7 +8,7 @@ from tlcomm_tools.figures.trace import Trace
 
 def test_each_cell_has_its_count(trace: Trace) -> None:
     """Cells where nobody met stay empty."""
-    (axes,) = heat_map_figure(trace).axes
+    axes, bar = heat_map_figure(trace).axes
     (heat,) = axes.collections
     counts = {
         tuple(path.vertices.min(axis=0).tolist()): count
@@ -21,6 +21,5 @@ def test_each_cell_has_its_count(trace: Trace) -> None:
     )
     assert counts == expected
     assert heat.get_clim() == (0.0, max(expected.values()))
-    (bar,) = axes.child_axes
     assert bar.get_ylabel() == "times an agent met there"
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("x (m)", "y (m)")

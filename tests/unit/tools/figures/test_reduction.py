@@ -10,7 +10,7 @@ from tlcomm_core.geometry import Pose
 from tlcomm_core.records import EstimateRecord, RunRecords, StrategyRecord
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds
-from tlcomm_core.world.observation import Odometry
+from tlcomm_core.world.observation import Connectivity, Odometry
 from tlcomm_tools.figures import reduction
 from tlcomm_tools.figures.elements import Activity, Span
 
@@ -87,6 +87,19 @@ def test_meetings_have_places_and_links() -> None:
     assert first.links == second.links == (("east", "west"),)
 
 
+def test_links_are_those_in_the_middle_of_a_meeting() -> None:
+    """By its agents' account of when it began; they may come late, and leave early."""
+    records = hand_made_records()
+    records.tasks = [task(10.2, "east", TaskEventKind.MEETING_STARTED, round_=1)]
+    records.connectivity = [
+        Connectivity(nanoseconds(time_s), edges, connected=bool(edges))
+        for time_s, edges in [(0.0, ()), (11.1, ((0, 1),)), (11.3, ())]
+    ]
+    first, second = reduction.meetings(hand_made_scenario(), records, END_S)
+    assert (first.start_s, first.links) == (10.2, (("east", "west"),))
+    assert (second.start_s, second.links) == (20.0, ())
+
+
 def test_a_part_of_the_team_may_meet() -> None:
     """Links are those among the members."""
     records = hand_made_records()
@@ -121,6 +134,16 @@ def test_nobodys_additional_time_is_left_out() -> None:
     ]
     (known,) = reduction.additional_times(rounds)
     assert (known.round, known.by_agent_s) == (2, {"east": 0.0})
+
+
+def test_meetings_of_a_round_count_together() -> None:
+    """Pairs meet apart, and an agent may meet twice."""
+    rounds = [
+        {"round": 1, "additional_time": {"a": 1.0, "b": 2.0}},
+        {"round": 1, "additional_time": {"b": 0.5, "c": 4.0}},
+    ]
+    (both,) = reduction.additional_times(rounds)
+    assert both.by_agent_s == {"a": 1.0, "b": 2.5, "c": 4.0}
 
 
 def test_estimates_of_one_exchange_are_one_step() -> None:

@@ -36,6 +36,13 @@ def test_windows_are_marked_up_to_the_end(trace: Trace) -> None:
     assert axes.get_xlim() == (0.0, trace.end_s)
 
 
+def test_who_does_not_promise_windows_misses_none(trace: Trace) -> None:
+    """Pairs don't meet as a team."""
+    pairs = trace.model_copy(update={"missed_rounds": (1,), "method": "pairwise"})
+    (axes,) = schedule_figure(pairs).axes
+    assert [own.get_text() for own in axes.texts] == ["window 0", "window 1", "window 2"]
+
+
 def test_of_many_agents_the_first_are_shown(trace: Trace) -> None:
     """As many as a page has room for."""
     many = {f"agent_{n}": trace.spans["agent_1"] for n in range(1, 101)}

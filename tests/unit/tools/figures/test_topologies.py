@@ -38,3 +38,13 @@ def test_meetings_of_parts_are_drawn_together(trace: Trace) -> None:
     )
     (axes,) = topologies_figure(trace.model_copy(update={"meetings": parts}), (1,)).axes
     assert [len(line.get_xydata()) for line in axes.lines] == [2, 6]
+
+
+def test_a_place_of_several_agents_says_of_how_many(trace: Trace) -> None:
+    """One dot, and the number beside it."""
+    first = trace.meetings[0]
+    here = dict.fromkeys(first.places_m, (1.25, 1.25)) | {"agent_8": (1.75, 1.25)}
+    meeting = first.model_copy(update={"places_m": here, "links": ()})
+    (axes,) = topologies_figure(trace.model_copy(update={"meetings": (meeting,)}), (1,)).axes
+    assert [own.get_text() for own in axes.texts] == ["×7"]
+    assert len(axes.lines[0].get_xydata()) == 2

@@ -41,8 +41,10 @@ class Averaging(ABC):
         """Take in what the agent has measured itself."""
 
     @abstractmethod
-    def is_moved(self, said: EstimateExchange | None, heard: Iterable[EstimateExchange]) -> bool:
-        """Tell whether an exchange would change anything; the arguments are those of it."""
+    def moving(
+        self, said: EstimateExchange | None, heard: Iterable[EstimateExchange]
+    ) -> tuple[EstimateExchange, ...]:
+        """Return what is heard and would change anything; the arguments are an exchange's."""
 
     @abstractmethod
     def exchange(self, said: EstimateExchange | None, heard: Sequence[EstimateExchange]) -> None:
@@ -55,7 +57,13 @@ class Averaging(ABC):
 
 
 class Consensus(Averaging):
-    """Weighted steps towards what neighbours say: x_i ← x_i + Σ_j ε_ij (x_j − x_i).
+    """Weighted steps towards what neighbours say, x_i ← x_i + Σ_j ε_ij (x_j − x_i), and by readings.
+
+    An agent's first reading is its estimate. A later one shifts the estimate by what it differs
+    from the one before, x_i ← x_i + (u_i' − u_i). So the sum of all estimates is that of all newest
+    readings: the team follows their average, though each goes on measuring at its own station, and
+    what that station's own error is cancels out once and for all. Were the reading to take the
+    estimate's place, each measurement would throw away what the team has come to.
 
     The sum is over neighbours whose values differ by more than a tolerance, so it is the protocol
     on the graph of these links alone, and comes to rest: where it changes anything, it lessens
@@ -66,8 +74,8 @@ class Consensus(Averaging):
     ε = 1 / (Δ + 1) is where Δ is known, from what the two ends of a link know. Either is the same
     at both ends, and the x are those that both have said and heard; so what one gains the other
     loses, and the sum of all estimates stays. That needs what is said to be heard. After a loss an
-    end steps towards an older value than it should, or not at all: the sum shifts by at most
-    that. But the weights of a step always sum up to less than 1, so an estimate never leaves the
+    end steps towards an older value than it should, or not at all, and the sum shifts by that much.
+    But the weights of a step always sum up to less than 1, so an estimate never leaves the
     span of those around it, and agreement comes all the same.
 
     Source: R. Olfati-Saber, J. A. Fax and R. M. Murray, "Consensus and Cooperation in Networked
@@ -75,9 +83,11 @@ class Consensus(Averaging):
         ε < 1/Δ on a connected undirected graph, Δ its largest number of neighbours; for links that
         change see its Section III. The local weights are the Metropolis weights of L. Xiao,
         S. Boyd and S. Lall, "A Scheme for Robust Distributed Sensor Fusion Based on Average
-        Consensus", IPSN 2005.
+        Consensus", IPSN 2005. Readings: M. Zhu and S. Martínez, "Discrete-time Dynamic Average
+        Consensus", Automatica 46(2), 2010, first order; after D. P. Spanos, R. Olfati-Saber and
+        R. M. Murray, "Dynamic Consensus on Mobile Networks", IFAC World Congress 2005.
     Deviates: differences within the tolerance count as none. Agents that have no value yet take the
-        mean of what they hear.
+        mean of what they hear, until their first reading.
     """
 
     def __init__(self, own: str, step: float | None, tolerance: float) -> None:
@@ -92,6 +102,7 @@ class Consensus(Averaging):
         self._step: Final = step
         self._tolerance: Final = tolerance
         self._estimate: float | None = None
+        self._measured: float | None = None
 
     @property
     def estimate(self) -> float | None:
@@ -99,15 +110,21 @@ class Consensus(Averaging):
         return self._estimate
 
     def measure(self, value: float, time_ns: int) -> None:
-        """Let a measurement take the estimate's place."""
+        """Shift the estimate by what a measurement differs from the last; the first replaces it."""
         del time_ns
-        self._estimate = value
+        before, self._measured = self._measured, value
+        if self._estimate is None or before is None:
+            self._estimate = value
+        else:
+            self._estimate += value - before
 
-    def is_moved(self, said: EstimateExchange | None, heard: Iterable[EstimateExchange]) -> bool:
-        """Tell whether some neighbour's value is further off than the tolerance."""
+    def moving(
+        self, said: EstimateExchange | None, heard: Iterable[EstimateExchange]
+    ) -> tuple[EstimateExchange, ...]:
+        """Return the words whose value is further off than the tolerance."""
         if said is None:
-            return self._estimate is None and any(True for _ in heard)
-        return any(abs(word.value - said.value) > self._tolerance for word in heard)
+            return tuple(heard) if self._estimate is None else ()
+        return tuple(word for word in heard if abs(word.value - said.value) > self._tolerance)
 
     def exchange(self, said: EstimateExchange | None, heard: Sequence[EstimateExchange]) -> None:
         """Step towards what neighbours said, from what they were told."""
@@ -116,14 +133,15 @@ class Consensus(Averaging):
                 self._estimate = fsum(word.value for word in heard) / len(heard)
         elif said is not None:
             # Exactly rounded, so that the order of neighbours doesn't matter.
-            self._estimate += fsum(self._flow(said, word) for word in heard)
+            self._estimate += fsum(
+                self._weight(said, word) * (word.value - said.value)
+                for word in self.moving(said, heard)
+            )
 
-    def _flow(self, said: EstimateExchange, word: EstimateExchange) -> float:
-        difference = word.value - said.value
-        if abs(difference) <= self._tolerance:
-            return 0.0
-        most = max(said.neighbours, word.neighbours)
-        return difference * (1.0 / (1 + most) if self._step is None else self._step)
+    def _weight(self, said: EstimateExchange, word: EstimateExchange) -> float:
+        if self._step is not None:
+            return self._step
+        return 1.0 / (1 + max(said.neighbours, word.neighbours))
 
 
 class Exact(Averaging):
@@ -155,10 +173,12 @@ class Exact(Averaging):
         """Take in the agent's own newest measurement."""
         self._newest[self._own] = Measurement(self._own, value, time_ns)
 
-    def is_moved(self, said: EstimateExchange | None, heard: Iterable[EstimateExchange]) -> bool:
-        """Tell whether some neighbour knows of a newer measurement."""
+    def moving(
+        self, said: EstimateExchange | None, heard: Iterable[EstimateExchange]
+    ) -> tuple[EstimateExchange, ...]:
+        """Return the words that tell of a newer measurement."""
         del said
-        return any(self._is_news(each) for word in heard for each in word.known)
+        return tuple(word for word in heard if any(map(self._is_news, word.known)))
 
     def exchange(self, said: EstimateExchange | None, heard: Sequence[EstimateExchange]) -> None:
         """Take over what is newer."""

@@ -28,12 +28,13 @@ class Estimator:
     """Readings taken in, and exchanged with whoever is in range, for as long as that changes them.
 
     Exchanges are at the multiples of a period of simulated time, the same for all: at each, an
-    agent steps by what was said before it, and says its estimate if that is another than it said
-    last, or if a neighbour has come into range since. So whatever the team is doing meanwhile,
-    neighbours exchange; and once they agree, they are silent.
+    agent steps by what was said before it, and says its estimate if that is new, or if a neighbour
+    has come into range since it said it. So whatever the team is doing meanwhile, neighbours
+    exchange; and once they agree, they are silent.
 
     Two agents reckon with each other once both have said something since they came into range:
-    the same exchange at both ends, if nothing is lost.
+    the same exchange at both ends, if nothing is lost. If something is, one of them waits in vain
+    for the other to come nearer; then it asks, and the other repeats what it said last.
     """
 
     def __init__(
@@ -66,6 +67,8 @@ class Estimator:
         self._step = -1
         self._due_ns: int | None = None
         self._has_news = False
+        self._is_asked = False
+        self._moved_by: dict[str, EstimateExchange] = {}
 
     @property
     def next_need_ns(self) -> int | None:
@@ -129,35 +132,43 @@ class Estimator:
             return Reception.LATE
         self._heard[word.sender] = (*before[-1:], word)
         self._has_news = True
+        self._is_asked |= word.asks
         return Reception.ACCEPTED
 
     def _next_exchange_ns(self, now_ns: int) -> int | None:
         """Return when the next exchange is due; ``None`` if it would change nothing."""
-        if not self._since_ns or not (self._has_to_say() or self._is_moved()):
+        if not self._since_ns:
+            return None
+        if not (self._has_to_say() or self._averaging.moving(self._said, self._words())):
             return None
         if self._due_ns is not None:
             return self._due_ns
         return self._period_ns * max(-(-now_ns // self._period_ns), self._step + 1)
 
     def _exchange(self, step: int) -> tuple[Action, ...]:
-        self._averaging.exchange(self._said, self._words(step))
+        averaging, words = self._averaging, self._words(step)
+        moving = averaging.moving(self._said, words)
+        averaging.exchange(self._said, words)
+        # Whom a word moves also moves its sender, who says so: unless something was lost.
+        asks = any(self._moved_by.get(word.sender) == word for word in moving)
+        self._moved_by.update((word.sender, word) for word in moving)
         self._step = step
-        estimate = self._averaging.estimate
-        if estimate is None or not self._has_to_say():
+        if averaging.estimate is None or not (moving or self._has_to_say()):
             return ()
-        count, known = len(self._since_ns), self._averaging.known
-        self._said = EstimateExchange(self._own, step, count, estimate, known)
+        self._said = EstimateExchange(
+            self._own, step, len(self._since_ns), asks, averaging.estimate, averaging.known
+        )
+        self._is_asked = False
         return (SayEstimate(self._said),)
 
-    def _is_moved(self) -> bool:
-        return self._averaging.is_moved(self._said, self._words())
-
     def _has_to_say(self) -> bool:
-        """Tell whether some neighbour hasn't been told what this agent now knows."""
+        """Tell whether some neighbour hasn't been told, or has missed, what this agent knows."""
         said, averaging = self._said, self._averaging
+        if averaging.estimate is None:
+            return False
         if said is None or said.value != averaging.estimate or said.known != averaging.known:
-            return averaging.estimate is not None
-        return max(self._since_ns.values()) > said.step * self._period_ns
+            return True
+        return self._is_asked or max(self._since_ns.values()) > said.step * self._period_ns
 
     def _words(self, before: int | None = None) -> list[EstimateExchange]:
         """Return what each neighbour said last, if they have been told something as well.

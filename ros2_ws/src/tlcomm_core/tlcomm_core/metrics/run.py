@@ -11,7 +11,7 @@ from typing import Final, TypeVar
 from tlcomm_core.method import Method
 from tlcomm_core.metrics.connection import windows_of
 from tlcomm_core.metrics.coordination import coordination_wall_s, indexed, solve_wall_s, timings_of
-from tlcomm_core.metrics.deviation import Deviation, deviation_of_team, deviations
+from tlcomm_core.metrics.deviation import SETTLED_PERIODS, Deviation, deviation_of_team, deviations
 from tlcomm_core.metrics.distance import distance_m
 from tlcomm_core.metrics.information_age import InformationAge, information_age
 from tlcomm_core.metrics.lost_time import LostTime, lost_time
@@ -20,7 +20,7 @@ from tlcomm_core.metrics.satisfaction import makespan_s, mean_cycle_s, satisfied
 from tlcomm_core.metrics.summary import AgentMetrics, Computing, RunMetrics, TeamMetrics
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
-from tlcomm_core.units import seconds
+from tlcomm_core.units import nanoseconds, seconds
 from tlcomm_core.windows import Window
 
 __all__ = ["run_metrics"]
@@ -52,6 +52,7 @@ class _Run:
         agreed: what was agreed on: meetings or, by a method without any, turns.
         met: the meetings that took place.
         windows: all that are decided.
+        settled: deviations after the start.
     """
 
     scenario: Scenario
@@ -64,6 +65,7 @@ class _Run:
     windows: tuple[Window, ...]
     ages: InformationAge | None
     deviations: Mapping[str, Deviation]
+    settled: Mapping[str, Deviation]
 
     @property
     def end_s(self) -> float:
@@ -74,6 +76,7 @@ class _Run:
     def of(cls, scenario: Scenario, records: RunRecords, method: Method, end_ns: int) -> "_Run":
         agreed = meetings(scenario, records)
         met = [own for own in agreed if method.has_meetings and own.took_place_by(seconds(end_ns))]
+        settled_ns = nanoseconds(SETTLED_PERIODS * scenario.communication.period_s)
         return cls(
             scenario=scenario,
             records=records,
@@ -85,6 +88,7 @@ class _Run:
             lost=lost_time(scenario, records),
             ages=information_age(records.connectivity, len(scenario.agents), end_ns),
             deviations=deviations(scenario, records.estimates, end_ns),
+            settled=deviations(scenario, records.estimates, end_ns, settled_ns),
         )
 
 
@@ -113,7 +117,8 @@ class _Costs:
 def _agent_metrics(run: _Run, name: str) -> AgentMetrics:
     moments_ns = satisfied_ns(name, run.records)
     period_s = run.scenario.communication.period_s
-    lost, deviation = run.lost.get(name), run.deviations.get(name)
+    lost = run.lost.get(name)
+    deviation, settled = run.deviations.get(name), run.settled.get(name)
     number = list(run.scenario.agents).index(name)
     return AgentMetrics(
         tasks_satisfied=len(moments_ns),
@@ -130,6 +135,7 @@ def _agent_metrics(run: _Run, name: str) -> AgentMetrics:
         information_age_max_s=None if run.ages is None else run.ages.most_of_s(number),
         deviation_mean=None if deviation is None else deviation.mean,
         deviation_max=None if deviation is None else deviation.most,
+        deviation_settled_max=None if settled is None else settled.most,
         distance_m=distance_m(name, run.records),
         messages=run.records.messages_sent.get(name),
         bytes=run.records.bytes_sent.get(name),
@@ -140,7 +146,7 @@ def _team_metrics(run: _Run, agents: Sequence[AgentMetrics]) -> TeamMetrics:
     kept = [window.satisfied for window in run.windows]
     sizes = [len(meeting.members) for meeting in run.met]
     team = len(agents)
-    deviation = deviation_of_team(run.deviations)
+    deviation, settled = deviation_of_team(run.deviations), deviation_of_team(run.settled)
     return TeamMetrics(
         tasks_satisfied=sum(own.tasks_satisfied for own in agents),
         tasks_per_hour=_sum(own.tasks_per_hour for own in agents),
@@ -162,6 +168,7 @@ def _team_metrics(run: _Run, agents: Sequence[AgentMetrics]) -> TeamMetrics:
         information_age_max_s=_max(own.information_age_max_s for own in agents),
         deviation_mean=None if deviation is None else deviation.mean,
         deviation_max=None if deviation is None else deviation.most,
+        deviation_settled_max=None if settled is None else settled.most,
         distance_m=sum(own.distance_m for own in agents),
         messages=_sum(own.messages for own in agents),
         bytes=_sum(own.bytes for own in agents),

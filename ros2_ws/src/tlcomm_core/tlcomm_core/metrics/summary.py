@@ -38,6 +38,7 @@ class Metrics:
         information_age_max_s: the largest.
         deviation_mean: of estimates from the field, over time (and agents).
         deviation_max: the largest.
+        deviation_settled_max: the largest from 2·T_c on.
         distance_m: driven.
         messages: said.
         bytes: said.
@@ -59,6 +60,7 @@ class Metrics:
     information_age_max_s: float | None
     deviation_mean: float | None
     deviation_max: float | None
+    deviation_settled_max: float | None
     distance_m: float
     messages: int | None
     bytes: int | None

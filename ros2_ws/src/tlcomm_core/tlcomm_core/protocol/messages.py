@@ -166,6 +166,7 @@ class EstimateExchange:
         sender: who says it.
         step: number of the exchange, on the team's common grid of time.
         neighbours: how many agents the sender hears.
+        asks: whether neighbours are to repeat what they said last, since some of it was lost.
         value: its estimate.
         known: the newest measurement that it knows of each member, sorted by agent; none if the
             team comes to one estimate by consensus.
@@ -174,6 +175,7 @@ class EstimateExchange:
     sender: str
     step: int
     neighbours: int
+    asks: bool
     value: float
     known: tuple[Measurement, ...] = ()
 

@@ -28,7 +28,7 @@ __all__ = ["size_bytes"]
 _ENCAPSULATION: Final = 4
 _WORD: Final = 4
 _FRAME: Final = "map"
-_SHORT, _INT, _DOUBLE = 2, 4, 8
+_BYTE, _SHORT, _INT, _DOUBLE = 1, 2, 4, 8
 
 
 def size_bytes(message: TeamMessage) -> int:
@@ -65,6 +65,7 @@ def size_bytes(message: TeamMessage) -> int:
         case EstimateExchange():
             layout.numbers(_INT)
             layout.numbers(_SHORT)
+            layout.numbers(_BYTE)
             layout.numbers(_DOUBLE)
             layout.numbers(_INT)
             for measurement in message.known:

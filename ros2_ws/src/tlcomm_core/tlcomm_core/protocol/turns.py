@@ -20,7 +20,7 @@ _EXCHANGES: Final = 7
 _COMPUTING_S: Final = 0.2
 # How probably some message of an exchange still lacks after the repetitions that are waited for.
 _LACKING: Final = 1e-6
-_MOST_REPETITIONS: Final = 40
+_MOST_REPETITIONS: Final = 100
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,8 +53,9 @@ class TurnTeam(Team):
 def pause_s(team: Team, latency_s: float, jitter_s: float = 0.0, loss: float = 0.0) -> float:
     """Return how long after the last arrival all members at one place hardly ever lack agreement.
 
-    They leave together then; who lacks it comes later. How long messages wait for each other on a
-    narrow band isn't reckoned with.
+    They leave together then; who lacks it comes later. One exchange is allowed the worst luck; that
+    others have it at the same meeting too is less likely still. How long messages wait for each
+    other on a narrow band isn't reckoned with.
 
     Args:
         team: says how often messages are repeated.
@@ -69,4 +70,4 @@ def pause_s(team: Team, latency_s: float, jitter_s: float = 0.0, loss: float = 0
         lacking *= loss
         repeated_s += wait_s
         wait_s = min(2.0 * wait_s, team.longest_retry_s)
-    return _COMPUTING_S + _EXCHANGES * (latency_s + jitter_s + repeated_s)
+    return _COMPUTING_S + _EXCHANGES * (latency_s + jitter_s) + repeated_s

@@ -13,7 +13,7 @@ from tlcomm_core.scenario.loader import loads
 from tlcomm_tools.bag.reader import read_run
 from tlcomm_tools.comparison.archive import Archive
 from tlcomm_tools.comparison.job import TRACE, Failed, Job
-from tlcomm_tools.figures.trace import Trace
+from tlcomm_tools.comparison.tracing import trace_text
 from tlcomm_tools.folder import replace_file
 from tlcomm_tools.run import RunOptions, run_mission
 from tlcomm_tools.status import Status
@@ -56,6 +56,5 @@ def _run(job: Job, out: Path, on_wait: Callable[[], None]) -> Failed | None:
         return Failed(f"{failure.name}: {failure.reason} (logs: {report.folder.logs})")
     if job.is_drawn:
         records = read_run(report.folder.bag).records
-        trace = Trace.from_records(scenario, job.method, records, report.result)
-        replace_file(out / TRACE, trace.to_json())
+        replace_file(out / TRACE, trace_text(job, scenario, records, report.result))
     return None

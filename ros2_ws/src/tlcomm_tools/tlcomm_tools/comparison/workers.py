@@ -14,7 +14,8 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from typing import Final
 
-from tlcomm_tools.comparison.job import Failed, Job, Outcome, execute
+from tlcomm_tools.comparison.in_process import execute
+from tlcomm_tools.comparison.job import Failed, Job, Outcome
 
 __all__ = ["local_workers", "outcomes"]
 

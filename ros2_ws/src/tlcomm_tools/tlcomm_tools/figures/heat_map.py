@@ -18,8 +18,9 @@ from tlcomm_tools.figures.trace import Trace
 
 __all__ = ["heat_map_figure"]
 
-# What beside the axes is taken by labels and the scale.
-_BESIDE_IN: Final = (1.0, 0.5)
+# What beside the axes is taken by labels and the scale; less height than they need, so that the
+# axes are as high as the scale.
+_BESIDE_IN: Final = (1.0, 0.35)
 
 
 def heat_map_figure(trace: Trace) -> Figure:
@@ -42,10 +43,9 @@ def heat_map_figure(trace: Trace) -> Figure:
     heat.set_array(list(counts.values()))
     heat.set_clim(0.0)
     axes.add_collection(heat)
-    beside = axes.inset_axes((1.03, 0.0, 0.04, 1.0))
-    bar = figure.colorbar(heat, cax=beside)
+    bar = figure.colorbar(heat, ax=axes, pad=0.02, aspect=25.0)
     bar.set_label("times an agent met there")
-    beside.yaxis.set_major_locator(MaxNLocator(integer=True, steps=[1, 2, 5, 10]))
+    bar.ax.yaxis.set_major_locator(MaxNLocator(integer=True, steps=[1, 2, 5, 10]))
     return figure
 
 

@@ -14,7 +14,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
 from tlcomm_tools.figures.elements import Ground
-from tlcomm_tools.figures.style import COLUMN_IN, OBSTACLE_GREY, PAGE_IN
+from tlcomm_tools.figures.style import COLUMN_IN, HATCH_GREY, OBSTACLE_GREY, PAGE_IN
 
 __all__ = ["draw_ground", "height_in", "width_in"]
 
@@ -49,7 +49,17 @@ def draw_ground(axes: Axes, ground: Ground, named_in: float | None = None) -> No
     """
     for x_min, y_min, x_max, y_max in ground.obstacles_m:
         box = (x_min, y_min), x_max - x_min, y_max - y_min
-        axes.add_patch(Rectangle(*box, facecolor=OBSTACLE_GREY, edgecolor="none", zorder=1.0))
+        # Hatched, since in grey a plain face might be taken for a colour.
+        axes.add_patch(
+            Rectangle(
+                *box,
+                facecolor=OBSTACLE_GREY,
+                edgecolor=HATCH_GREY,
+                hatch="/////",
+                linewidth=0.0,
+                zorder=1.0,
+            )
+        )
     for x_m, y_m, radius_m in ground.regions_m.values():
         ring = Circle((x_m, y_m), radius_m, facecolor="none", edgecolor="#707070", zorder=1.5)
         axes.add_patch(ring)

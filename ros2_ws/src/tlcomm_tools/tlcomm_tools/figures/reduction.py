@@ -140,19 +140,21 @@ def agreements(records: RunRecords) -> tuple[Agreement, ...]:
 
 
 def additional_times(rounds: Iterable[Mapping[str, Any]]) -> tuple[AdditionalTime, ...]:
-    """Return what rounds cost each agent.
+    """Return what rounds cost each agent, in all its meetings of a round together.
 
     Args:
         rounds: those of a result document; the ones in which nobody met are left out.
     """
-    found = []
+    by_round: dict[int, dict[str, float]] = {}
     for own in rounds:
-        known_s = {
-            name: time_s for name, time_s in own["additional_time"].items() if time_s is not None
-        }
-        if known_s:
-            found.append(AdditionalTime(round=own["round"], by_agent_s=known_s))
-    return tuple(found)
+        for name, time_s in own["additional_time"].items():
+            if time_s is not None:
+                known_s = by_round.setdefault(own["round"], {})
+                known_s[name] = known_s.get(name, 0.0) + time_s
+    return tuple(
+        AdditionalTime(round=number, by_agent_s=known_s)
+        for number, known_s in sorted(by_round.items())
+    )
 
 
 def estimates(records: Iterable[EstimateRecord]) -> Series:

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from tlcomm_core.method import parse_method
 from tlcomm_tools.figures.elements import Activity, Span
 from tlcomm_tools.figures.style import PAGE_IN, agent_labels, new_figure
 from tlcomm_tools.figures.trace import Trace
@@ -94,13 +95,15 @@ def _draw_span(axes: Axes, row: int, span: Span, look: _Look) -> None:
 
 
 def _draw_windows(axes: Axes, trace: Trace, rounds: tuple[int, int]) -> None:
+    """Draw where windows begin, and which ones were missed by a method that keeps them."""
+    missed = trace.missed_rounds if parse_method(trace.method).keeps_windows else ()
     for number in range(rounds[0], rounds[1] + 1):
         opens_s = number * trace.period_s
         if opens_s < trace.end_s:
             axes.axvline(opens_s, color="#909090", linewidth=0.6, linestyle="--", zorder=0.5)
-            missed = " missed" if number in trace.missed_rounds else ""
+            flaw = " missed" if number in missed else ""
             axes.annotate(
-                f"window {number}{missed}",
+                f"window {number}{flaw}",
                 (opens_s, 1.0),
                 xycoords=("data", "axes fraction"),
                 xytext=(2.0, 1.0),

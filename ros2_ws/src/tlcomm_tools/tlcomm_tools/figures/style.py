@@ -2,6 +2,8 @@
 
 ``COLUMN_IN``   width of a column
 ``PAGE_IN``     width of a page
+``OBSTACLE_GREY``  face of obstacles
+``HATCH_GREY``  their hatching
 ``LineStyle``   how a line is told from others
 ``method_line`` a method's
 ``in_order``    methods as figures show them
@@ -27,7 +29,7 @@ from matplotlib.ticker import EngFormatter
 
 __all__ = [
     "COLUMN_IN",
-    "GRID_GREY",
+    "HATCH_GREY",
     "OBSTACLE_GREY",
     "PAGE_IN",
     "LineStyle",
@@ -43,8 +45,8 @@ __all__ = [
 
 COLUMN_IN: Final = 3.5
 PAGE_IN: Final = 7.16
-OBSTACLE_GREY: Final = "#c8c8c8"
-GRID_GREY: Final = "#dddddd"
+OBSTACLE_GREY: Final = "#e6e6e6"
+HATCH_GREY: Final = "#a8a8a8"
 
 _DOTS_PER_INCH: Final = 220
 _LARGE: Final = 10_000.0
@@ -62,7 +64,7 @@ _RC: Final[dict[Any, Any]] = {
     "axes.linewidth": 0.6,
     "axes.axisbelow": True,
     "axes.grid": False,
-    "grid.color": GRID_GREY,
+    "grid.color": "#dddddd",
     "grid.linewidth": 0.5,
     "xtick.major.width": 0.6,
     "ytick.major.width": 0.6,

@@ -4,6 +4,7 @@
 ``PAPER_ROUNDS``       the rounds that the paper shows
 """
 
+from collections import Counter
 from collections.abc import Sequence
 from typing import Final
 
@@ -27,7 +28,8 @@ _BESIDE_IN: Final = (0.4, 0.55)
 def topologies_figure(trace: Trace, rounds: Sequence[int] = PAPER_ROUNDS) -> Figure:
     """Draw the places and links of the meetings of some rounds, those of them that took place.
 
-    Where parts of the team met, all of a round that share nobody are drawn together.
+    Where parts of the team met, all of a round that share nobody are drawn together. A place of
+    several agents says of how many.
 
     Args:
         trace: a run in which somebody met.
@@ -64,8 +66,9 @@ def _draw_meeting(axes: Axes, meeting: Meeting) -> None:
     for one, other in meeting.links:
         ends_m = np.array([meeting.places_m[one], meeting.places_m[other]])
         axes.plot(*ends_m.T, color="black", linewidth=0.9, zorder=2.0)
+    counts = Counter(meeting.places_m.values())
     axes.plot(
-        *np.array(list(meeting.places_m.values())).T,
+        *np.array(list(counts)).T,
         "o",
         color="#56b4e9",
         markeredgecolor="black",
@@ -73,3 +76,8 @@ def _draw_meeting(axes: Axes, meeting: Meeting) -> None:
         markersize=4.5,
         zorder=2.5,
     )
+    for place_m, count in counts.items():
+        if count > 1:
+            axes.annotate(
+                f"×{count}", place_m, xytext=(3.0, 2.0), textcoords="offset points", fontsize=6.5
+            )

@@ -147,12 +147,16 @@ def _workers(options: Namespace) -> Iterator[Executor | None]:
 
 
 def _draw(found: Mapping[str, Any], archive: Archive, done: Sequence[Job]) -> None:
-    """Draw the methods of the first seed side by side, or what is varied."""
+    """Draw the first seed's methods side by side and the team's run by itself, or the sweep."""
     # Not for those whose options are refused: matplotlib takes its time.
-    from tlcomm_tools.figures.gallery import draw_comparison, draw_sweep  # noqa: PLC0415
+    from tlcomm_tools.figures.gallery import draw_comparison, draw_run, draw_sweep  # noqa: PLC0415
 
     if found["sweep"] is None:
-        draw_comparison(archive.traces(done), archive.figures, found)
+        traces = archive.traces(done)
+        draw_comparison(traces, archive.figures, found)
+        for trace in traces:
+            if trace.method == Method.TEAM:
+                draw_run(trace, archive.figures)
     else:
         draw_sweep(found, archive.figures, QUANTITIES[found["sweep"]["name"]].label)
 

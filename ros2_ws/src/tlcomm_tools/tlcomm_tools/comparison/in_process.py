@@ -1,0 +1,56 @@
+"""A comparison's job inside one process, without ROS.
+
+``execute``  runs it
+"""
+
+import time
+from typing import Final
+
+from tlcomm_core.errors import TlcommError
+from tlcomm_core.game.solver import SOLVERS
+from tlcomm_core.mission import Mission
+from tlcomm_core.result import RunFacts, result_document
+from tlcomm_core.scenario.loader import loads
+from tlcomm_core.scenario.site import Site
+from tlcomm_core.simulation import simulate
+from tlcomm_core.units import seconds
+from tlcomm_tools.comparison.job import TRACE, Failed, Finished, Job, Outcome
+from tlcomm_tools.comparison.tracing import trace_text
+from tlcomm_tools.folder import dumps_json
+
+__all__ = ["execute"]
+
+_PACE: Final = "lockstep"
+
+
+def execute(job: Job) -> Outcome:
+    """Run a job in this process and return its files' texts; nothing is written.
+
+    Whatever a run may stumble over is its outcome; other errors are faults of the program.
+    """
+    try:
+        return _simulated(job)
+    except TlcommError as error:
+        return Failed(" ".join(str(error).split("\n")))
+
+
+def _simulated(job: Job) -> Finished:
+    scenario = loads(job.scenario, job.folder)
+    solver = job.method.solver(SOLVERS[job.solver])
+    solver.check_team(len(scenario.agents))
+    site = Site.from_scenario(scenario)
+    begun_s = time.perf_counter()
+    left = simulate(Mission(site, job.seed, None, job.until_s, solver, job.method))
+    facts = RunFacts(
+        method=job.method,
+        solver=solver.name,
+        seed=job.seed,
+        pace=_PACE,
+        sim_s=seconds(left.sim_ns),
+        wall_s=time.perf_counter() - begun_s,
+    )
+    result = result_document(scenario, left.records, facts)
+    files = {"scenario.yaml": job.scenario, "result.json": dumps_json(result)}
+    if job.is_drawn:
+        files[TRACE] = trace_text(job, scenario, left.records, result)
+    return Finished(files)
