@@ -60,7 +60,7 @@ class Consensus(Averaging):
     """Weighted steps towards what neighbours say, x_i ← x_i + Σ_j ε_ij (x_j − x_i), and by readings.
 
     An agent's first reading is its estimate. A later one shifts the estimate by what it differs
-    from the one before, x_i ← x_i + (u_i' − u_i). So the sum of all estimates is that of all newest
+    from the one before: x_i ← x_i + (u_i' − u_i). So the sum of all estimates is that of the newest
     readings: the team follows their average, though each goes on measuring at its own station, and
     what that station's own error is cancels out once and for all. Were the reading to take the
     estimate's place, each measurement would throw away what the team has come to.
