@@ -1,6 +1,7 @@
 """Whole teams that measure a field: who gets readings, and what becomes of them."""
 
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -64,9 +65,17 @@ def test_each_measurement_gives_the_reading_of_its_station(method: Method) -> No
     assert sorted(found) == sorted(expected)
 
 
-def test_a_reading_is_the_estimate_where_consensus_is_sought() -> None:
-    """Until others are met."""
-    assert all(own.value == own.last_measurement for own in measurements(run()))
+def test_a_reading_shifts_the_estimate_by_what_it_differs_from_the_last() -> None:
+    """The first is the estimate, in a team that seeks consensus."""
+    estimates = run().estimates
+    first = {own.agent: own for own in reversed(measurements(run()))}
+    assert all(own.value == own.last_measurement for own in first.values())
+    for name in first:
+        own = [estimate for estimate in estimates if estimate.agent == name]
+        for before, after in pairwise(own[own.index(first[name]) :]):
+            if after.last_measurement != before.last_measurement:
+                shift = after.last_measurement - before.last_measurement
+                assert after.value == pytest.approx(before.value + shift, abs=1e-9)
 
 
 @pytest.mark.parametrize("mode", ["consensus", "exact"])
