@@ -107,8 +107,9 @@ def odometry_key(odometry: Odometry) -> tuple[int, str]:
         (measuring_corridor(), 2, Method.TEAM),
         (gate(), 5, Method.TEAM),
         (SCENARIO, 4, Method.PAIRWISE),
+        (SCENARIO, 2, Method.ALL_TIME),
     ],
-    ids=["corridor", "field", "gate", "pairs"],
+    ids=["corridor", "field", "gate", "pairs", "turns"],
 )
 def test_lock_step_run_equals_the_simulation(
     tmp_path: Path, scenario: Scenario, rounds: int, method: Method
