@@ -85,7 +85,7 @@ class Estimator:
         return ""
 
     def read(self, value: float, time_ns: int) -> None:
-        """Take a reading: what the agent measured, and when; an estimate is reported in any case."""
+        """Take a reading: what the agent measured, and when; the estimate is reported anew."""
         self._measured = value
         self._reported = None
         self._averaging.measure(value, time_ns)
