@@ -69,14 +69,24 @@ def test_an_agent_without_a_value_takes_the_mean_of_what_it_hears() -> None:
     assert consensus.estimate == 12.0
 
 
-def test_a_measurement_takes_the_estimate_s_place() -> None:
-    """Whatever was agreed before."""
+def test_a_measurement_shifts_the_estimate_by_what_it_has_changed() -> None:
+    """Whatever was agreed on before stays."""
     consensus = Consensus("a", None, 0.01)
     consensus.measure(10.0, 0)
     consensus.exchange(word("a", 10.0), [word("b", 20.0)])
+    agreed = consensus.estimate
+    assert agreed is not None
     consensus.measure(30.0, 1)
-    assert consensus.estimate == 30.0
+    assert consensus.estimate == agreed + 20.0
     assert consensus.known == ()
+
+
+def test_the_first_measurement_replaces_what_was_taken_over() -> None:
+    """Until then the estimate was others' alone, and counts once already."""
+    consensus = Consensus("a", None, 0.01)
+    consensus.exchange(None, [word("b", 20.0)])
+    consensus.measure(10.0, 0)
+    assert consensus.estimate == 10.0
 
 
 def test_the_exact_average_is_of_the_newest_measurements() -> None:

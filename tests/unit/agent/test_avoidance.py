@@ -3,13 +3,15 @@
 import pytest
 
 from support.danger_hall import danger_hall
-from tlcomm_core.agent.avoidance import avoided_regions, travel_of
+from tlcomm_core.agent.avoidance import avoided_regions, joint_travel, travel_of
 from tlcomm_core.agent.planner import check_tasks, local_plan
 from tlcomm_core.errors import PlanningError, UnreachableTaskError
 from tlcomm_core.ltl import parse
-from tlcomm_core.scenario.model import Region, Scenario
+from tlcomm_core.method import Method
+from tlcomm_core.scenario.model import DriveOverride, Region, Scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.workspace.atlas import Atlas
+from tlcomm_core.workspace.travel import Motion
 from tlcomm_tools.audit.trespass import forbidden_regions
 
 
@@ -110,3 +112,31 @@ def test_any_of_several_tasks_may_forbid() -> None:
     travel = travel_of("careful", site, Atlas(site.grid, site.region_discs))
     assert travel.grid.avoided.keys() == {"danger"}
     assert forbidden_regions(site.scenario, "careful") == ["danger"]
+
+
+def test_a_team_that_goes_together_keeps_out_of_what_any_forbids() -> None:
+    """It drives as its slowest members do, on one and the same travel times."""
+    scenario = danger_hall()
+    slow = scenario.agents["bold"].model_copy(
+        update={"motion": DriveOverride(linear_mps=0.3, angular_radps=9.0)}
+    )
+    agents = scenario.agents | {"bold": slow}
+    site = Site.from_scenario(scenario.model_copy(update={"agents": agents}))
+    atlas = Atlas(site.grid, site.region_discs)
+    travel = joint_travel(site, atlas)
+    careful = travel_of("careful", site, atlas)
+    assert travel.grid.avoided.keys() == {"danger"}
+    assert travel.motion == Motion(0.3, careful.motion.angular_radps)
+    check_tasks(site, Method.ALL_TIME)
+
+
+def test_a_team_that_goes_together_starts_where_all_may_be() -> None:
+    """The message names who starts where another mustn't be."""
+    scenario = danger_hall()
+    x_m, y_m = scenario.workspace.regions["danger"].at_m
+    bold = scenario.agents["bold"].model_copy(update={"start": (x_m, y_m, 0.0)})
+    site = Site.from_scenario(
+        scenario.model_copy(update={"agents": scenario.agents | {"bold": bold}})
+    )
+    with pytest.raises(PlanningError, match=r"agents\.bold\.start: region 'danger' is forbidden"):
+        joint_travel(site, Atlas(site.grid, site.region_discs))

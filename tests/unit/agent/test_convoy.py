@@ -24,14 +24,15 @@ def offer_at(
     y_m: float,
     yaw_rad: float = 0.0,
     stops_m: tuple[tuple[float, float], ...] = ((4.25, 0.75), (4.25, 2.25)),
+    busy_s: tuple[float, ...] = (4.0, 4.0, 4.0),
 ) -> MemberOffer:
-    """Return an offer of an agent that has done one step; each of the next takes 4 s there."""
+    """Return an offer of an agent that has done one step, and is busy for a while at the next."""
     pose, offset_s, stops = Pose(x_m, y_m, yaw_rad), 0.0, []
-    for index, stop_m in enumerate(stops_m, start=1):
+    for index, (stop_m, at_stop_s) in enumerate(zip(stops_m, busy_s, strict=False), start=1):
         target = GRID.location_at(*stop_m)
         assert target is not None
         leg = TRAVEL.leg_to(pose, target)
-        pose, offset_s = leg.arrival, offset_s + leg.duration_s + 4.0
+        pose, offset_s = leg.arrival, offset_s + leg.duration_s + at_stop_s
         stops.append(PlannedStop(index, pose.x_m, pose.y_m, pose.yaw_rad, offset_s))
     return MemberOffer(name, 5.0, x_m, y_m, yaw_rad, 0.5, 1.5, tuple(stops))
 
@@ -74,12 +75,51 @@ def test_all_go_to_the_leaders_place_and_it_acts_there() -> None:
     assert second.strategy.extra_travel_s == detour.extra_s[place]
 
 
-def test_what_comes_next_at_the_same_place_is_done_in_the_same_turn() -> None:
-    """A visit and the action there aren't two turns."""
-    offers = [offer_at("a", *HERE, stops_m=((4.25, 0.75), (4.25, 0.75)))]
+def test_a_turn_goes_as_far_as_the_next_action() -> None:
+    """By what is only visited, which the leader stops at for no time, and the others drive by."""
+    stops_m = ((4.25, 0.75), (5.25, 2.25), (5.25, 2.25))
+    offers = [
+        offer_at("a", *HERE, stops_m=stops_m, busy_s=(0.0, 0.0, 4.0)),
+        offer_at("b", *HERE, 1.0),
+    ]
+    first, second = turn(offers, 0, DEPARTURE_S, TRAVEL)
+    assert (first.steps, first.strategy.task_index) == (3, 3)
+    assert first.strategy.x_m == second.strategy.x_m == 5.25
+    assert first.strategy.arrival_s == pytest.approx(second.strategy.arrival_s + 4.0)
+    assert first.way.leg.arrival.x_m == 4.25
+    corners_m = second.way.leg.waypoints_m
+    assert corners_m[: len(first.way.leg.waypoints_m)] == first.way.leg.waypoints_m
+    assert corners_m[-1] == (5.25, 2.25)
+    # Nothing keeps it at what it visits in passing.
+    assert (first.way.ends_s, second.way.ends_s) == (-math.inf, second.strategy.arrival_s)
+    assert straight_s(first) == pytest.approx(straight_s(second))
+    driven_s = offers[0].stops[2].finish_offset_s - 4.0
+    assert second.way.ends_s == pytest.approx(first.way.begins_s + driven_s, abs=2e-3)
+
+
+def test_without_actions_a_turn_is_a_visit() -> None:
+    """As many as an offer lists would be too many for one turn."""
+    offers = [offer_at("a", *HERE, busy_s=(0.0, 0.0))]
     (part,) = turn(offers, 0, DEPARTURE_S, TRAVEL)
-    assert (part.steps, part.strategy.task_index) == (2, 2)
-    assert part.strategy.arrival_s == pytest.approx(part.way.ends_s + 8.0)
+    assert (part.steps, part.strategy.x_m) == (1, 4.25)
+    assert part.strategy.arrival_s == part.way.ends_s
+
+
+def test_who_is_a_little_off_misses_no_corner() -> None:
+    """One so near that somebody may be past it isn't driven to; all meet at the next at once."""
+    offers = [offer_at("a", 1.23, 0.76, 2.0), offer_at("b", 1.26, 0.74, -2.0)]
+    parts = turn(offers, 0, DEPARTURE_S, TRAVEL, 0.06)
+    (corner_m,) = {part.way.leg.waypoints_m[0] for part in parts}
+    assert corner_m != HERE
+    assert turn(offers, 0, DEPARTURE_S, TRAVEL)[0].way.leg.waypoints_m == (
+        HERE,
+        *parts[0].way.leg.waypoints_m,
+    )
+    times_s = [
+        straight_s(part) + math.dist((part.way.start.x_m, part.way.start.y_m), corner_m) / 0.5
+        for part in parts
+    ]
+    assert times_s[0] == pytest.approx(times_s[1], abs=1e-9)
 
 
 def test_nobody_goes_where_no_way_leads() -> None:

@@ -127,6 +127,20 @@ def test_a_step_uses_only_what_was_said_before_it() -> None:
     assert said == SayEstimate(EstimateExchange("a", 2, 1, False, 15.0))
 
 
+def test_a_neighbour_s_word_waits_until_it_has_been_answered() -> None:
+    """Who acts late says first what it has: the other can't have reckoned with that yet."""
+    estimator = alone()
+    estimator.read(10.0, 0)
+    estimator.see_neighbours(0, "c")
+    estimator.proceed(0)
+    estimator.see_neighbours(PERIOD_NS + 1, "bc")
+    estimator.hear(EstimateExchange("b", 2, 3, False, 20.0), 2 * PERIOD_NS + LATENCY_NS)
+    (said,) = estimator.proceed(3 * PERIOD_NS)
+    assert said == SayEstimate(EstimateExchange("a", 3, 2, False, 10.0))
+    (said, _) = estimator.proceed(4 * PERIOD_NS)
+    assert said == SayEstimate(EstimateExchange("a", 4, 2, False, 12.5))
+
+
 def test_two_that_meet_agree_and_are_silent() -> None:
     """Each says what it has, then the middle; then nothing."""
     team = EstimatingTeam("ab")
@@ -171,11 +185,11 @@ def test_a_link_that_comes_again_begins_anew() -> None:
     team.read({"a": 4.0})
     team.link(["ab"])
     team.run()
-    assert team.values == {"a": 2.75, "b": 2.75}
+    assert team.values == {"a": 3.0, "b": 3.0}
 
 
 def test_a_reading_in_a_silent_team_is_spread() -> None:
-    """It takes the estimate's place, and the sum of all changes by just that."""
+    """It shifts the estimate, and the sum of all changes by just that."""
     team = EstimatingTeam("abc")
     team.read({"a": 3.0, "b": 3.0, "c": 3.0})
     team.link(["ab", "bc"])

@@ -1,20 +1,26 @@
 """How far an agent goes on with its plan before it leaves for the meeting."""
 
+import math
+
 import pytest
 
 from support.small_plant import START, SmallPlant
+from tlcomm_core.agent.convoy import AgreedLeg
 from tlcomm_core.agent.itinerary import Itinerary
 from tlcomm_core.errors import LocalMisuseError
 from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.geometry import Pose
 from tlcomm_core.ltl import parse
 from tlcomm_core.planning.synthesis import plan_task
+from tlcomm_core.workspace.grid import Grid
+from tlcomm_core.workspace.travel import Leg, TravelTimes
 
 PLANT = SmallPlant()
 PLAN = plan_task(parse("G F ((p & collect) & F (r & unload))"), PLANT.system())
 # Whose attempt fails, at the region of the step.
 STEP = next(index for index in range(10) if PLAN.step(index).action == "collect")
 PLACE = Pose(1.75, 0.25, 0.0)
+AWAY = Pose(3.25, 2.75, 0.0)
 RETRIES = 2
 
 
@@ -46,6 +52,39 @@ def test_without_failures_step_h_decides() -> None:
     assert meeting is not None
     arrival = itinerary.leg(pose, meeting).arrival
     assert arrival.distance_m(PLACE.x_m, PLACE.y_m) == 0.0
+
+
+@pytest.mark.parametrize("leeway_s", [0.0, 3.0])
+def test_who_keeps_time_leaves_out_what_is_too_late(leeway_s: float) -> None:
+    """From the agreed arrival less what is left: later by more than the leeway, time decides."""
+    agreed_s = 100.0
+    itinerary, pose = at_the_action(STEP, agreed_s)
+    before = itinerary.leg(pose, None)
+    by_s = agreed_s + leeway_s - before.duration_s - needed_s(itinerary, before.arrival)
+    itinerary.keep_time(pose, leeway_s)
+    assert itinerary.next_meeting(pose, by_s - 1e-3) is None
+    assert itinerary.next_meeting(pose, by_s + 1e-3) is not None
+    itinerary.agree(Strategy("one", PLACE.x_m, PLACE.y_m, STEP, agreed_s, 0.0), agreed_s)
+    assert itinerary.next_meeting(pose, by_s + 1e-3) is None
+
+
+def test_who_keeps_time_counts_all_steps_that_are_left() -> None:
+    """An agent that is late for them all leaves out the first that doesn't fit, not the last."""
+    late = Itinerary(PLAN, PLANT.times, RETRIES)
+    late.agree(Strategy("one", PLACE.x_m, PLACE.y_m, STEP + 3, 200.0, 0.0), 200.0)
+    total_s, pose = 0.0, START
+    for index in range(STEP + 4):
+        leg = PLANT.times.leg_to(pose, PLAN.step(index).location)
+        total_s += leg.duration_s + PLAN.step(index).duration_s
+        pose = leg.arrival
+    place = PLANT.times.grid.location_at(PLACE.x_m, PLACE.y_m)
+    assert place is not None
+    total_s += PLANT.times.leg_from(pose, place).duration_s
+    late.keep_time(START, 0.0)
+    assert late.next_meeting(START, 200.0 - total_s) is None
+    # One step alone still fits in: time decides on each.
+    assert late.next_meeting(START, 200.0 - total_s + 1.0) is None
+    assert late.next_meeting(START, 199.9) is not None
 
 
 def test_after_a_failure_time_decides() -> None:
@@ -117,3 +156,43 @@ def test_without_a_meeting_ahead_steps_follow_one_another() -> None:
         itinerary.finish_step()
     with pytest.raises(LocalMisuseError, match="before any meeting"):
         itinerary.meeting_pose(pose)
+
+
+def test_an_agreed_way_is_gone_at_the_agreed_hours() -> None:
+    """From where it begins, be it to the meeting or to a step; from elsewhere, and once the meeting
+    is reached, the shortest way at any time.
+    """
+    itinerary = Itinerary(PLAN, PLANT.times, RETRIES)
+    meeting = Strategy("one", PLACE.x_m, PLACE.y_m, 0, 100.0, 0.0)
+    round_about = Leg(((AWAY.x_m + 0.5, AWAY.y_m), (AWAY.x_m, AWAY.y_m)), 9.0, 1.0, AWAY)
+    itinerary.agree(meeting, math.inf, AgreedLeg(AWAY, round_about, 20.0, 30.0))
+    for goal in (meeting, None):
+        leg = itinerary.leg(AWAY, goal)
+        assert leg is round_about
+        assert itinerary.hours(leg) == (20.0, 30.0)
+    elsewhere = itinerary.leg(itinerary.leg(PLACE, None).arrival, meeting)
+    assert elsewhere.arrival.distance_m(PLACE.x_m, PLACE.y_m) == 0.0
+    assert itinerary.hours(elsewhere) == (-math.inf, -math.inf)
+    itinerary.reach_meeting()
+    assert itinerary.leg(AWAY, meeting) is not round_about
+
+
+def test_an_agreed_way_that_the_map_has_closed_isnt_gone() -> None:
+    """Another one is, that all who agreed find alike: into the place, not out of the own pose."""
+    itinerary = Itinerary(PLAN, PLANT.times, RETRIES)
+    meeting = Strategy("one", PLACE.x_m, PLACE.y_m, 0, 100.0, 0.0)
+    place = PLANT.times.grid.location_at(PLACE.x_m, PLACE.y_m)
+    assert place is not None
+    agreed = PLANT.times.leg_from(AWAY, place)
+    itinerary.agree(meeting, math.inf, AgreedLeg(AWAY, agreed, 20.0, 30.0))
+    assert itinerary.leg(AWAY, meeting) is agreed
+    grid, (x_m, y_m) = PLANT.times.grid, agreed.waypoints_m[0]
+    half_m = grid.cell_m / 2.0
+    box = (x_m - half_m, y_m - half_m, x_m + half_m, y_m + half_m)
+    closed = Grid(grid.size_m, grid.cell_m, [*grid.boxes.tolist(), box], grid.origin_m)
+    travel = TravelTimes(closed, PLANT.times.motion)
+    itinerary.change_map(travel, AWAY)
+    leg = itinerary.leg(AWAY, meeting)
+    assert leg is not agreed
+    target = closed.location_at(PLACE.x_m, PLACE.y_m)
+    assert target is None or leg == travel.leg_to(AWAY, target)

@@ -17,7 +17,7 @@ from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.workspace.grid import Grid
 
 NAMES = ("one", "three", "two")
-TEAM = TurnTeam(frozenset(NAMES), 0.96, 30.0, 0.25, rules=Rules(keeps_places=True), off_m=0.04)
+TEAM = TurnTeam(frozenset(NAMES), 0.96, 30.0, 0.25, rules=Rules(keeps_places=True), off_m=0.02)
 GRID = hall(1).grid
 ROUNDS = TurnRounds(Charts(Atlas(GRID)), TEAM, 0.0)
 # Where each one's next two steps are.

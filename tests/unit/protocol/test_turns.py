@@ -16,6 +16,7 @@ def test_a_turn_may_be_at_any_time() -> None:
     assert team.window_s(7) == (0.0, math.inf)
     assert team.opens_s(7) == 0.0
     assert team.confirmable_until_s(7) == math.inf
+    assert team.horizon_s(7, 1000.0) == 60.0
 
 
 def test_a_good_radio_needs_a_short_pause_and_a_bad_one_a_longer() -> None:

@@ -2,16 +2,17 @@
 
 ``AgreedLeg``    a leg that others reckon with: which way, and from when on
 ``Part``         one agent's part in what the team does next
-``turn``         all go to where the leader's next step is
+``turn``         all go to where the leader next has something to do
 ``contraction``  the outermost go to those next to them
 ``is_together``  whether all are at one place
 
 A turn. All stand at one place, and drive one polyline, the leader's way, at one pair of speeds (v,
-ω) that all can do. Headings may differ at first: agent i needs T_i to turn to the first straight,
-and sets out max_j T_j − T_i after the departure. So all begin the first straight at the same time.
-From then on they are at the same point, with the same heading, at every instant, and before that
-none of them moves. So the distance of any two is 0 ≤ R. At the end of the way the leader does what
-its plan has next there, a visit and an action as a rule, while the others stand by.
+ω) that all can do. Headings may differ at first: agent i needs T_i to turn to the first straight
+and to drive it, and sets out max_j T_j − T_i after the departure. So all come to its end, the first
+corner, at the same time, and began it at the same time as well, as it is as long for all. From then
+on they are at the same point, with the same heading, at every instant, and before that none of them
+moves. So the distance of any two is 0 ≤ R. The way leads through the regions that the leader's plan
+visits in passing, and ends at its next action; the leader performs that while the others stand by.
 
 A contraction. Not all stand at one place. Let linked pairs be those that are in the planned range
 and in sight of each other, with a free straight between them; let a tree of shortest ways over
@@ -38,7 +39,7 @@ Deviates: there followers are driven by a potential over continuous motion, with
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations, takewhile
+from itertools import chain, combinations, dropwhile
 from typing import Final
 
 import numpy as np
@@ -52,10 +53,14 @@ from tlcomm_core.workspace.travel import Leg, Motion, TravelTimes
 
 __all__ = ["AgreedLeg", "Part", "contraction", "is_together", "turn"]
 
-# Segments of a controller that a turn and a straight make, with one to spare.
+Corners = tuple[tuple[float, float], ...]
+
+# A turn and a straight are two segments of a controller; as many are spare.
 _SEGMENTS: Final = 4
 # Simulated time is rounded to nanoseconds, each time anew: so late may somebody be.
 _ROUNDING_S: Final = 1e-3
+# What takes no longer than this takes no time: a region that is only driven through.
+_INSTANT_S: Final = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +88,7 @@ class Part:
         way: how it goes.
         strategy: the same as the team knows it. Its h of an agent that does no step, and has done
             none yet, is 0: there is no number for none.
-        steps: how many steps of its plan it does there.
+        steps: how many steps of its plan it does on the way and there.
     """
 
     way: AgreedLeg
@@ -100,30 +105,41 @@ def is_together(offers: Sequence[MemberOffer], within_m: float) -> bool:
 
 
 def turn(
-    offers: Sequence[MemberOffer], leader: int, departure_s: float, travel: TravelTimes
+    offers: Sequence[MemberOffer],
+    leader: int,
+    departure_s: float,
+    travel: TravelTimes,
+    near_m: float = 0.0,
 ) -> tuple[Part, ...]:
-    """Return everybody's part when all go to where the leader's next step is.
+    """Return everybody's part when all go to where the leader next has something to do.
+
+    That is its next step that takes time, if its offer has one, or else its next step.
 
     Args:
         offers: all members', who are together.
-        leader: whose step it is, by its index. If no way leads to it, all stay.
+        leader: who leads, by its index. If no way leads to its next step, all stay.
         departure_s: when the present meeting ends.
         travel: travel times with speeds that all can do, round what anybody avoids.
+        near_m: corners of the way so near to its start aren't driven to: who is a little off may
+            be past them.
     """
-    leg, steps = _leaders_leg(offers[leader], travel)
-    turns_s = [_turn_s(_pose_of(offer), leg, travel.motion) for offer in offers]
-    straight_s = departure_s + max(turns_s)
-    after_turn_s = leg.duration_s - turns_s[leader]
-    ends_s = straight_s + after_turn_s + _ROUNDING_S
+    lead = _lead(offers[leader], travel)
+    place = lead.legs[-1].arrival
+    first_m = _without_near(_pose_of(offers[leader]), lead.legs[0].waypoints_m, near_m)
+    later_m = tuple(chain.from_iterable(leg.waypoints_m for leg in lead.legs[1:]))
+    ways = [_way(_pose_of(offer), (*first_m, *later_m), place, travel.motion) for offer in offers]
+    corner_s = departure_s + max(way.first_s for way in ways)
+    ends_s = corner_s + ways[leader].leg.duration_s - ways[leader].first_s + _ROUNDING_S
     parts = []
-    for index, (offer, turn_s) in enumerate(zip(offers, turns_s, strict=True)):
-        own = Leg(leg.waypoints_m, turn_s + after_turn_s, leg.distance_m, leg.arrival)
-        way = AgreedLeg(_pose_of(offer), own, straight_s - turn_s, ends_s)
-        if index == leader and steps:
-            acting_s = offer.stops[steps - 1].finish_offset_s - leg.duration_s
-            parts.append(_part(offer, way, ends_s + acting_s, 0.0, steps))
+    for index, (offer, way) in enumerate(zip(offers, ways, strict=True)):
+        pose, begins_s = _pose_of(offer), corner_s - way.first_s
+        if index != leader:
+            agreed = AgreedLeg(pose, way.leg, begins_s, ends_s)
+            parts.append(_part(offer, agreed, place, ends_s, _extra_s(offer, place, travel)))
         else:
-            parts.append(_part(offer, way, ends_s, _extra_s(offer, leg.arrival, travel)))
+            own = _way(pose, first_m, lead.legs[0].arrival, travel.motion).leg
+            agreed = AgreedLeg(pose, own, begins_s, -math.inf if later_m else ends_s)
+            parts.append(_part(offer, agreed, place, ends_s + lead.busy_s, 0.0, lead.steps))
     return tuple(parts)
 
 
@@ -153,6 +169,7 @@ def contraction(
         _part(
             offer,
             AgreedLeg(pose, leg, departure_s, ends_s),
+            leg.arrival,
             ends_s,
             _extra_s(offer, leg.arrival, travel),
         )
@@ -173,34 +190,68 @@ def _parents(linked: NDArray[np.bool_]) -> list[int]:
     ]
 
 
-def _leaders_leg(offer: MemberOffer, travel: TravelTimes) -> tuple[Leg, int]:
-    """Return the way to the offer's next stop, and how many stops are there; none: it stays."""
-    pose, (stop, *following) = _pose_of(offer), offer.stops
-    target = travel.grid.location_at(stop.x_m, stop.y_m)
-    if target is None or not travel.grid.leads(pose.x_m, pose.y_m, target):
-        return Leg((), 0.0, 0.0, pose), 0
-    there = takewhile(lambda own: (own.x_m, own.y_m) == (stop.x_m, stop.y_m), following)
-    return travel.leg_to(pose, target), 1 + len([*there])
+@dataclass(frozen=True, slots=True)
+class _Lead:
+    """What a leader does: the ways to its next stops, and how long it is busy at the last."""
+
+    legs: tuple[Leg, ...]
+    steps: int
+    busy_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Way:
+    """A leg, and how long the turn and the straight to its first corner take."""
+
+    leg: Leg
+    first_s: float
+
+
+def _lead(offer: MemberOffer, travel: TravelTimes) -> _Lead:
+    """Return the way to the first stop that takes time, if there is one, or else to the next."""
+    pose, travel_s, legs = _pose_of(offer), 0.0, list[Leg]()
+    for stop in offer.stops:
+        target = travel.grid.location_at(stop.x_m, stop.y_m)
+        if target is None or not travel.grid.leads(pose.x_m, pose.y_m, target):
+            break
+        legs.append(travel.leg_to(pose, target))
+        pose, travel_s = legs[-1].arrival, travel_s + legs[-1].duration_s
+        busy_s = stop.finish_offset_s - travel_s
+        if busy_s > _INSTANT_S:
+            return _Lead(tuple(legs), len(legs), busy_s)
+    if not legs:
+        return _Lead((Leg((), 0.0, 0.0, pose),), 0, 0.0)
+    return _Lead((legs[0],), 1, 0.0)
 
 
 def _straight(start: Pose, end: Pose, motion: Motion) -> Leg:
-    distance_m = start.distance_m(end.x_m, end.y_m)
-    if distance_m == 0.0:
+    if start.distance_m(end.x_m, end.y_m) == 0.0:
         return Leg((), 0.0, 0.0, start)
     yaw_rad = math.atan2(end.y_m - start.y_m, end.x_m - start.x_m)
-    turned_s = abs(wrap_angle(yaw_rad - start.yaw_rad)) / motion.angular_radps
-    duration_s = turned_s + distance_m / motion.linear_mps + _SEGMENTS * motion.segment_allowance_s
     arrival = Pose(end.x_m, end.y_m, yaw_rad)
-    return Leg(((end.x_m, end.y_m),), duration_s, distance_m, arrival)
+    return _way(start, ((end.x_m, end.y_m),), arrival, motion).leg
 
 
-def _turn_s(pose: Pose, leg: Leg, motion: Motion) -> float:
-    """Return how long an agent turns before the first straight of a leg."""
-    if not leg.waypoints_m:
-        return 0.0
-    x_m, y_m = leg.waypoints_m[0]
-    ahead_rad = math.atan2(y_m - pose.y_m, x_m - pose.x_m)
-    return abs(wrap_angle(ahead_rad - pose.yaw_rad)) / motion.angular_radps
+def _without_near(start: Pose, corners_m: Corners, near_m: float) -> Corners:
+    """Return the corners of a way from the first on that isn't near its start, or the last."""
+    ahead = dropwhile(lambda corner_m: start.distance_m(*corner_m) <= near_m, corners_m)
+    return tuple(ahead) or corners_m[-1:]
+
+
+def _way(start: Pose, corners_m: Corners, arrival: Pose, motion: Motion) -> _Way:
+    """Return the way over corners: a turn and a straight to each."""
+    x_m, y_m, yaw_rad = start.x_m, start.y_m, start.yaw_rad
+    drives_s: list[float] = []
+    length_m = 0.0
+    for to_x_m, to_y_m in corners_m:
+        ahead_rad = math.atan2(to_y_m - y_m, to_x_m - x_m)
+        straight_m = math.dist((x_m, y_m), (to_x_m, to_y_m))
+        turned_s = abs(wrap_angle(ahead_rad - yaw_rad)) / motion.angular_radps
+        allowed_s = _SEGMENTS * motion.segment_allowance_s
+        drives_s.append(turned_s + straight_m / motion.linear_mps + allowed_s)
+        length_m += straight_m
+        x_m, y_m, yaw_rad = to_x_m, to_y_m, ahead_rad
+    return _Way(Leg(corners_m, sum(drives_s), length_m, arrival), sum(drives_s[:1]))
 
 
 def _extra_s(offer: MemberOffer, place: Pose, travel: TravelTimes) -> float:
@@ -215,15 +266,18 @@ def _extra_s(offer: MemberOffer, place: Pose, travel: TravelTimes) -> float:
 
 
 def _part(
-    offer: MemberOffer, way: AgreedLeg, ready_s: float, extra_s: float, steps: int = 0
+    offer: MemberOffer,
+    way: AgreedLeg,
+    place: Pose,
+    ready_s: float,
+    extra_s: float,
+    steps: int = 0,
 ) -> Part:
-    place = way.leg.arrival
-    done = offer.stops[0].task_index - 1
     strategy = Strategy(
         agent=offer.agent,
         x_m=place.x_m,
         y_m=place.y_m,
-        task_index=max(0, done + steps),
+        task_index=max(0, offer.stops[0].task_index - 1 + steps),
         arrival_s=ready_s,
         extra_travel_s=extra_s,
     )

@@ -246,7 +246,7 @@ def team_of(site: Site, solver: Solver = DEFAULT, method: Method = Method.TEAM) 
     return replace(
         team,
         duration_s=pause_s(team, latency_s, radio.jitter_s, radio.loss),
-        off_m=2.0 * site.scenario.position_tolerance_m,
+        off_m=site.scenario.position_tolerance_m,
     )
 
 

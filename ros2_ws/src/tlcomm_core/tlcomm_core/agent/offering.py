@@ -54,9 +54,9 @@ def offer_of(
     team = settings.team
     # The departure is D_c after now or after the window's opening at the earliest.
     earliest_s = max(now_s, team.opens_s(window)) + team.duration_s
-    horizon_s = team.opens_s(window + 1 + team.most_windows) - earliest_s
     presence = Presence(pose, map_ns, now_s, earliest_s)
-    return _offer(settings, presence, itinerary.next_stops(pose, horizon_s))
+    stops = itinerary.next_stops(pose, team.horizon_s(window, earliest_s))
+    return _offer(settings, presence, stops)
 
 
 def later_offer(

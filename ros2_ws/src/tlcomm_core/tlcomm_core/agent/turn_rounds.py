@@ -76,8 +76,10 @@ class TurnRounds(MeetingRounds):
             offers: all members' sound offers, sorted by agent.
         """
         travel = self._travel_of(offers[0], self._atlas_of(offers))
-        if is_together(offers, self._off_m):
-            return turn(offers, (round_ - 1) % len(offers), departure_s, travel)
+        if is_together(offers, 2.0 * self._off_m):
+            # A corner further from the leader than this is one that nobody is at.
+            near_m = 3.0 * self._off_m
+            return turn(offers, (round_ - 1) % len(offers), departure_s, travel, near_m)
         linked = straights(
             np.array([(offer.x_m, offer.y_m) for offer in offers]), travel.grid, self._team
         )

@@ -83,6 +83,15 @@ class Team:
         """How many windows ahead a meeting may be planned."""
         return 2 if self.on_infeasible is OnInfeasible.SKIP else 1
 
+    def horizon_s(self, window: int, departure_s: float) -> float:
+        """Return how far offers look ahead from the departure: to the end of what may be planned.
+
+        Args:
+            window: of the meeting that they are made at.
+            departure_s: when that ends.
+        """
+        return self.opens_s(window + 1 + self.most_windows) - departure_s
+
     def confirmable_until_s(self, round_: int) -> float:
         """Return until when a round may be confirmed by an agent.
 

@@ -30,7 +30,7 @@ class TurnTeam(Team):
     ``duration_s`` is the pause between two turns instead of D_c.
 
     Attributes:
-        off_m: how far apart members at the same place may be.
+        off_m: how far a member may be off its place.
     """
 
     off_m: float = 0.0
@@ -43,6 +43,11 @@ class TurnTeam(Team):
     def window_s(self, round_: int) -> tuple[float, float]:
         """Return a round's window, [0, ∞)."""
         return self.opens_s(round_), math.inf
+
+    def horizon_s(self, window: int, departure_s: float) -> float:
+        """Return how far offers look ahead: T_c, in which any agent gets to its next action."""
+        del window, departure_s
+        return self.period_s
 
     def confirmable_until_s(self, round_: int) -> float:
         """Return until when a round may be confirmed: for ever, as nobody goes before."""
