@@ -163,3 +163,18 @@ def test_an_agreed_way_that_the_map_has_closed_isnt_gone() -> None:
     assert leg is not agreed
     target = closed.location_at(PLACE.x_m, PLACE.y_m)
     assert target is None or leg == travel.leg_to(AWAY, target)
+
+
+def test_how_many_steps_lead_to_the_next_action() -> None:
+    """It counts itself; where there is none, the next step and the one after it."""
+    itinerary = Itinerary(PLAN, PLANT.times, RETRIES)
+    for _ in range(8):
+        counted = itinerary.steps_to_action
+        ahead = [PLAN.step(itinerary.done + count) for count in range(1, counted + 1)]
+        assert counted >= 2
+        assert [step.action is None for step in ahead[:-1]] == [True] * (
+            counted - 1
+        ) or counted == 2
+        itinerary.finish_step()
+    patrol = plan_task(parse("G F p & G F m & G F r"), PLANT.system())
+    assert Itinerary(patrol, PLANT.times, RETRIES).steps_to_action == 2
