@@ -126,8 +126,8 @@ def test_without_a_meeting_ahead_steps_follow_one_another() -> None:
 
 
 def test_an_agreed_way_is_gone_at_the_agreed_hours() -> None:
-    """From where it begins, be it to the meeting or to a step; from elsewhere, and once the meeting
-    is reached, the shortest way at any time.
+    """From where it begins, be it to the meeting or to a step; from elsewhere, after a step and once
+    the meeting is reached, the shortest way at any time.
     """
     itinerary = Itinerary(PLAN, PLANT.times, RETRIES)
     meeting = Strategy("one", PLACE.x_m, PLACE.y_m, 0, 100.0, 0.0)
@@ -140,8 +140,10 @@ def test_an_agreed_way_is_gone_at_the_agreed_hours() -> None:
     elsewhere = itinerary.leg(itinerary.leg(PLACE, None).arrival, meeting)
     assert elsewhere.arrival.distance_m(PLACE.x_m, PLACE.y_m) == 0.0
     assert itinerary.hours(elsewhere) == (-math.inf, -math.inf)
-    itinerary.reach_meeting()
-    assert itinerary.leg(AWAY, meeting) is not round_about
+    for goes_on in (itinerary.finish_step, itinerary.reach_meeting):
+        itinerary.agree(meeting, math.inf, AgreedLeg(AWAY, round_about, 20.0, 30.0))
+        goes_on()
+        assert itinerary.leg(AWAY, meeting) is not round_about
 
 
 def test_an_agreed_way_that_the_map_has_closed_isnt_gone() -> None:
