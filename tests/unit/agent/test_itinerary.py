@@ -126,7 +126,7 @@ def test_without_a_meeting_ahead_steps_follow_one_another() -> None:
 
 
 def test_an_agreed_way_is_gone_at_the_agreed_hours() -> None:
-    """From where it begins, be it to the meeting or to a step; from elsewhere, after a step and once
+    """From where it begins, be it to the meeting or to a step; from elsewhere, after a step or once
     the meeting is reached, the shortest way at any time.
     """
     itinerary = Itinerary(PLAN, PLANT.times, RETRIES)
