@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from support.gate import gate
+from support.measuring_corridor import measuring_corridor
 from tlcomm_core.agent.channel import LOST
 from tlcomm_core.game.solver import DEFAULT
 from tlcomm_core.method import Method
@@ -103,17 +104,18 @@ def odometry_key(odometry: Odometry) -> tuple[int, str]:
     ("scenario", "rounds", "method"),
     [
         (SCENARIO, 2, Method.TEAM),
+        (measuring_corridor(), 2, Method.TEAM),
         (gate(), 5, Method.TEAM),
         (SCENARIO, 4, Method.PAIRWISE),
         (SCENARIO, 2, Method.ALL_TIME),
     ],
-    ids=["corridor", "gate", "pairs", "turns"],
+    ids=["corridor", "field", "gate", "pairs", "turns"],
 )
 def test_lock_step_run_equals_the_simulation(
     tmp_path: Path, scenario: Scenario, rounds: int, method: Method
 ) -> None:
-    """Over ROS the same decisions fall and the same poses are recorded, to the bit; all is well,
-    and the figures are equal.
+    """Over ROS the same decisions fall and the same poses and estimates are recorded, to the bit;
+    all is well, and the figures are equal.
     """
     segments: list[str] = []
     report = run_mission(
@@ -136,6 +138,8 @@ def test_lock_step_run_equals_the_simulation(
     assert recorded.messages_sent == expected.messages_sent
     assert recorded.bytes_sent == expected.bytes_sent
     assert recorded.messages_undelivered == expected.messages_undelivered
+    assert sorted(recorded.estimates, key=repr) == sorted(expected.estimates, key=repr)
+    assert bool(recorded.estimates) is (scenario.field is not None)
     assert segments == []
     assert processes(tmp_path) == {}
 
@@ -161,10 +165,13 @@ def test_lock_step_run_over_a_bad_radio_equals_the_simulation(tmp_path: Path) ->
 
 
 def test_free_run_meets(tmp_path: Path) -> None:
-    """With a clock that runs by itself the team meets, and agrees on the next meeting."""
-    report = run_mission(options_of(tmp_path / "run", 1, Pace(5.0)), lambda *_: None)
+    """With a clock that runs by itself the team meets, agrees on the next meeting, and measures."""
+    options = options_of(tmp_path / "run", 1, Pace(5.0), measuring_corridor())
+    report = run_mission(options, lambda *_: None)
     assert report.status is Status.FINE, report
     assert report.result["communication"]["missed"] == 0
+    recorded = read_run(report.folder.bag).records
+    assert any(own.has_measurement for own in recorded.estimates)
 
 
 @pytest.mark.parametrize("victim", [next(iter(SCENARIO.agents)), "sim", "recorder"])

@@ -14,16 +14,23 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Header
 
+from support.measuring_corridor import measuring_corridor
 from support.spinning import SpunNodes
 from tlcomm_agent.node import AgentNode, main
 from tlcomm_core.errors import InputError
 from tlcomm_core.geometry import Pose
-from tlcomm_core.scenario.loader import load_scenario
+from tlcomm_core.scenario.loader import dumps, load_scenario
 from tlcomm_core.scenario.site import grid_of
-from tlcomm_core.world.observation import Connectivity, Occupancy, Odometry
+from tlcomm_core.world.observation import Connectivity, Occupancy, Odometry, Reading
 from tlcomm_msgs import msg
 from tlcomm_sim.outputs import Tick
-from tlcomm_sim.wire import encode_connectivity, encode_occupancy, encode_odometry, encode_tick
+from tlcomm_sim.wire import (
+    encode_connectivity,
+    encode_occupancy,
+    encode_odometry,
+    encode_reading,
+    encode_tick,
+)
 
 CORRIDOR = Path(__file__).parents[2] / "scenarios" / "corridor.yaml"
 SCENARIO = load_scenario(CORRIDOR)
@@ -146,6 +153,29 @@ def test_tick_waits_for_all_that_it_counts(surroundings: Surroundings, last: str
     assert answer.team_messages == len(surroundings.offers) == 1
     published = answer.team_messages + answer.commands + len(surroundings.events)
     assert answer.published == published
+
+
+def test_a_tick_waits_for_the_readings_that_it_counts(context: Context, tmp_path: Path) -> None:
+    """If there is anything to measure; then the agent says what it takes the field to be."""
+    scenario = tmp_path / "field.yaml"
+    scenario.write_text(dumps(measuring_corridor()), "utf-8")
+    own = Surroundings(context, scenario=str(scenario))
+    estimates: list[msg.Estimate] = []
+    own.node.create_subscription(msg.Estimate, f"/{OWN}/estimate", estimates.append, 10)
+    reading_pub = own.node.create_publisher(msg.Reading, f"/{OWN}/reading", 10)
+    own.until(lambda: reading_pub.get_subscription_count() > 0)
+    own.show()
+    tick = encode_tick(Tick(1, 10_000_000, 1, 1, 0, 0, (0, 0, 0), reading_count=2))
+    own.tick_pub.publish(tick)
+    own.settle()
+    assert not own.answered(1)
+    reading_pub.publish(msg.Reading(agent=PEER, value=9.0))
+    reading_pub.publish(encode_reading(Reading(9_000_000, OWN, "west_bench", 51.5)))
+    own.until(lambda: own.answered(1) and bool(estimates))
+    assert [(said.value, said.last_measurement) for said in estimates] == [(51.5, 51.5)]
+    ((reason, count),) = own.agent.ignored.items()
+    assert (reason.split(":")[0], count) == ("reading", 1)
+    own.close()
 
 
 def test_running_freely_it_takes_messages_of_those_in_range(free: Surroundings) -> None:

@@ -75,6 +75,25 @@ def test_links_that_come_and_go_keep_the_average(
     assert sum(team.values.values()) == pytest.approx(sum(readings.values()), abs=1e-9)
 
 
+@given(teams(), st.lists(st.tuples(st.integers(0, 7), st.floats(-100.0, 100.0)), max_size=12))
+def test_the_average_is_that_of_the_newest_readings(
+    case: tuple[str, Edges, dict[str, float]], later: list[tuple[int, float]]
+) -> None:
+    """Whenever members measure, before they have heard of the field or after."""
+    names, edges, readings = case
+    team = EstimatingTeam(names, consensus)
+    team.link(edges)
+    newest: dict[str, float] = {}
+    for number, value in (*later, *enumerate(readings.values())):
+        name = names[number % len(names)]
+        newest[name] = value
+        team.read({name: value})
+        team.exchange()
+        team.exchange()
+    team.run()
+    assert sum(team.values.values()) == pytest.approx(sum(newest.values()), abs=1e-9)
+
+
 @given(teams(), st.integers(0, 1000))
 def test_with_losses_estimates_stay_among_the_readings_and_come_together(
     case: tuple[str, Edges, dict[str, float]], seed: int

@@ -14,7 +14,7 @@ from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose, quaternion_from_yaw
 from tlcomm_core.protocol.messages import Confirmation
 from tlcomm_core.protocol.size import size_bytes
-from tlcomm_core.records import RunRecords, StrategyRecord, TaskRecord
+from tlcomm_core.records import EstimateRecord, RunRecords, StrategyRecord, TaskRecord
 from tlcomm_core.scenario.loader import dumps, loads
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import NANOSECONDS_PER_SECOND, nanoseconds
@@ -217,6 +217,9 @@ def serialize_run(store: Typestore, records: RunRecords) -> Iterable[tuple[str, 
         (f"/{own.agent}/team_strategy", own.stamp_ns, make.strategy(own))
         for own in records.strategies
     ]
+    rows += [
+        (f"/{own.agent}/estimate", own.stamp_ns, make.estimate(own)) for own in records.estimates
+    ]
     rows += [(f"/{own.agent}/round_timing", 0, make.timing(own)) for own in records.timings]
     rows += [
         (f"/{agent}/undelivered", nanoseconds(22.0), make.undelivered(agent, counts))
@@ -333,6 +336,16 @@ class _Messages:
             solve_wall=own.solve_wall_s,
             offered_at=self._stamp(nanoseconds(own.offered_wall_s)),
             agreed_at=self._stamp(nanoseconds(own.agreed_wall_s)),
+        )
+
+    def estimate(self, own: EstimateRecord) -> bytes:
+        return self._bytes(
+            "tlcomm_msgs/msg/Estimate",
+            header=self._header(own.stamp_ns),
+            agent=own.agent,
+            value=own.value,
+            last_measurement=own.last_measurement,
+            has_measurement=own.has_measurement,
         )
 
     def undelivered(self, agent: str, counts: Mapping[str, int]) -> bytes:

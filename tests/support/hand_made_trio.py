@@ -29,7 +29,7 @@ __all__ = [
 ]
 
 TRIO = ("bow", "mid", "stern")
-_HOME_M = {"bow": 1.25, "mid": 2.0, "stern": 2.75}
+_HOME_M = {"bow": 1.25, "mid": 2.0, "stern": 2.75, "aft": 3.5}
 _END_S = 45.0
 
 _SCENARIO = """

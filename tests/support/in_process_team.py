@@ -5,14 +5,21 @@ from collections import Counter, deque
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from tlcomm_core.agent.actions import Drive, HoldStrategy, ReportTask, SendMessage
+from tlcomm_core.agent.actions import (
+    Drive,
+    HoldStrategy,
+    ReportEstimate,
+    ReportTask,
+    SayEstimate,
+    SendMessage,
+)
 from tlcomm_core.agent.controller import Pacing
 from tlcomm_core.agent.member import create
-from tlcomm_core.protocol.messages import Message
-from tlcomm_core.records import RunRecords, StrategyRecord, TaskRecord
+from tlcomm_core.protocol.messages import TeamMessage
+from tlcomm_core.records import EstimateRecord, RunRecords, StrategyRecord, TaskRecord
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.workspace.atlas import Atlas
-from tlcomm_core.world.observation import Connectivity, Occupancy, Odometry
+from tlcomm_core.world.observation import Connectivity, Observation, Occupancy, Odometry, Reading
 from tlcomm_sim.conductor import RECORDER, Conductor
 from tlcomm_sim.outputs import (
     Answer,
@@ -31,6 +38,7 @@ __all__ = ["InProcessTeam"]
 @dataclass
 class _Counts:
     odometry: int = 0
+    readings: int = 0
     commands: int = 0
     team: int = 0
     published: int = 0
@@ -87,16 +95,8 @@ class InProcessTeam:
             match output:
                 case ShowClock():
                     self.seen["clock"] += 1
-                case Show(Odometry() as odometry):
-                    self.seen["odometry"] += 1
-                    self._show_odometry(odometry)
-                case Show(Connectivity() as connectivity):
-                    self.seen["connectivity"] += 1
-                    self._show_connectivity(connectivity)
-                case Show(Occupancy() as occupancy):
-                    self.seen["map"] += 1
-                    for member in self.members.values():
-                        member.see_map(occupancy.stamp_ns, occupancy.grid.free)
+                case Show(observation):
+                    self._show(observation)
                 case TickAgent(agent, tick):
                     self._act(agent, tick)
                 case TickRecorder(tick):
@@ -105,6 +105,23 @@ class InProcessTeam:
                     assert not any(self.answers.values())
                 case _:
                     raise AssertionError(output)
+
+    def _show(self, observation: Observation) -> None:
+        match observation:
+            case Odometry():
+                self.seen["odometry"] += 1
+                self._show_odometry(observation)
+            case Connectivity():
+                self.seen["connectivity"] += 1
+                self._show_connectivity(observation)
+            case Occupancy():
+                self.seen["map"] += 1
+                for member in self.members.values():
+                    member.see_map(observation.stamp_ns, observation.grid.free)
+            case Reading(agent=agent):
+                self.seen["reading"] += 1
+                self.counts[agent].readings += 1
+                self.members[agent].see_reading(observation.stamp_ns, observation.value)
 
     def _show_odometry(self, odometry: Odometry) -> None:
         self.counts[odometry.agent].odometry += 1
@@ -124,6 +141,7 @@ class InProcessTeam:
         assert tick.odometry_count == counts.odometry
         assert tick.connectivity_count == self.seen["connectivity"]
         assert tick.map_count == self.seen["map"]
+        assert tick.reading_count == counts.readings
         teams = [others.team for others in self.counts.values()]
         assert all(due <= sent for due, sent in zip(tick.agent_counts, teams, strict=True))
         if not tick.stop:
@@ -132,7 +150,7 @@ class InProcessTeam:
                     case Drive(linear_mps, angular_radps):
                         counts.commands += 1
                         self.commands[name].append((linear_mps, angular_radps))
-                    case SendMessage(message):
+                    case SendMessage(message) | SayEstimate(message):
                         counts.team += 1
                         self._say(name, message, tick.time_ns)
                     case ReportTask(event):
@@ -140,6 +158,11 @@ class InProcessTeam:
                     case HoldStrategy(strategy):
                         record = StrategyRecord(tick.time_ns, name, strategy)
                         self.records.strategies.append(record)
+                    case ReportEstimate(value, measured):
+                        has_measured = measured is not None
+                        self.records.estimates.append(
+                            EstimateRecord(tick.time_ns, name, value, measured or 0.0, has_measured)
+                        )
                     case _:
                         continue
                 counts.published += 1
@@ -153,10 +176,11 @@ class InProcessTeam:
                 commands=counts.commands,
                 published=counts.published,
                 meetings_ended=member.meetings_ended,
+                measured_at=member.measured_at,
             )
         )
 
-    def _say(self, sender: str, message: Message, now_ns: int) -> None:
+    def _say(self, sender: str, message: TeamMessage, now_ns: int) -> None:
         for name, member in self.members.items():
             if name != sender:
                 member.receive(message, now_ns)
@@ -166,6 +190,7 @@ class InProcessTeam:
         assert tick.connectivity_count == self.seen["connectivity"]
         assert tick.map_count == self.seen["map"]
         assert tick.clock_count == self.seen["clock"]
+        assert tick.reading_count == self.seen["reading"]
         if tick.stop:
             published = tuple(counts.published for counts in self.counts.values())
             assert tick.agent_counts == published

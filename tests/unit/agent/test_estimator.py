@@ -127,6 +127,20 @@ def test_a_step_uses_only_what_was_said_before_it() -> None:
     assert said == SayEstimate(EstimateExchange("a", 2, 1, False, 15.0))
 
 
+def test_a_neighbour_s_word_waits_until_it_has_been_answered() -> None:
+    """Who acts late says first what it has: the other can't have reckoned with that yet."""
+    estimator = alone()
+    estimator.read(10.0, 0)
+    estimator.see_neighbours(0, "c")
+    estimator.proceed(0)
+    estimator.see_neighbours(PERIOD_NS + 1, "bc")
+    estimator.hear(EstimateExchange("b", 2, 3, False, 20.0), 2 * PERIOD_NS + LATENCY_NS)
+    (said,) = estimator.proceed(3 * PERIOD_NS)
+    assert said == SayEstimate(EstimateExchange("a", 3, 2, False, 10.0))
+    (said, _) = estimator.proceed(4 * PERIOD_NS)
+    assert said == SayEstimate(EstimateExchange("a", 4, 2, False, 12.5))
+
+
 def test_two_that_meet_agree_and_are_silent() -> None:
     """Each says what it has, then the middle; then nothing."""
     team = EstimatingTeam("ab")

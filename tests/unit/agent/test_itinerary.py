@@ -54,6 +54,39 @@ def test_without_failures_step_h_decides() -> None:
     assert arrival.distance_m(PLACE.x_m, PLACE.y_m) == 0.0
 
 
+@pytest.mark.parametrize("leeway_s", [0.0, 3.0])
+def test_who_keeps_time_leaves_out_what_is_too_late(leeway_s: float) -> None:
+    """From the agreed arrival less what is left: later by more than the leeway, time decides."""
+    agreed_s = 100.0
+    itinerary, pose = at_the_action(STEP, agreed_s)
+    before = itinerary.leg(pose, None)
+    by_s = agreed_s + leeway_s - before.duration_s - needed_s(itinerary, before.arrival)
+    itinerary.keep_time(pose, leeway_s)
+    assert itinerary.next_meeting(pose, by_s - 1e-3) is None
+    assert itinerary.next_meeting(pose, by_s + 1e-3) is not None
+    itinerary.agree(Strategy("one", PLACE.x_m, PLACE.y_m, STEP, agreed_s, 0.0), agreed_s)
+    assert itinerary.next_meeting(pose, by_s + 1e-3) is None
+
+
+def test_who_keeps_time_counts_all_steps_that_are_left() -> None:
+    """An agent that is late for them all leaves out the first that doesn't fit, not the last."""
+    late = Itinerary(PLAN, PLANT.times, RETRIES)
+    late.agree(Strategy("one", PLACE.x_m, PLACE.y_m, STEP + 3, 200.0, 0.0), 200.0)
+    total_s, pose = 0.0, START
+    for index in range(STEP + 4):
+        leg = PLANT.times.leg_to(pose, PLAN.step(index).location)
+        total_s += leg.duration_s + PLAN.step(index).duration_s
+        pose = leg.arrival
+    place = PLANT.times.grid.location_at(PLACE.x_m, PLACE.y_m)
+    assert place is not None
+    total_s += PLANT.times.leg_from(pose, place).duration_s
+    late.keep_time(START, 0.0)
+    assert late.next_meeting(START, 200.0 - total_s) is None
+    # One step alone still fits in: time decides on each.
+    assert late.next_meeting(START, 200.0 - total_s + 1.0) is None
+    assert late.next_meeting(START, 199.9) is not None
+
+
 def test_after_a_failure_time_decides() -> None:
     """Another attempt begins if it can end, and the place be reached, by t_c; not if it can't."""
     itinerary, pose = at_the_action(STEP + 5, 100.0)

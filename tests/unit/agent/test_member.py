@@ -9,7 +9,7 @@ from tlcomm_core.agent.member import Member, create, team_of
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.game.rules import Rules
 from tlcomm_core.geometry import Pose
-from tlcomm_core.protocol.messages import Message
+from tlcomm_core.protocol.messages import EstimateExchange, Message
 from tlcomm_core.protocol.negotiation import Phase
 from tlcomm_core.scenario.loader import dumps, loads
 from tlcomm_core.scenario.model import Radio
@@ -66,6 +66,16 @@ def test_a_step_handles_everything_seen_once() -> None:
     assert member.step(0) != ()
     assert member.step(0) == ()
     assert member._odometry == []
+
+
+def test_estimates_are_no_business_of_the_brain_s() -> None:
+    """A member whose scenario has no field counts them as unneeded, and its brain isn't woken."""
+    one = placed("one", 2)
+    one.step(0)
+    need_ns = one.next_need_ns
+    one.receive(EstimateExchange("two", 0, 1, False, 3.0), 0)
+    assert one.step(LATENCY_NS) == (CountIgnored("unneeded"),)
+    assert one.next_need_ns == need_ns
 
 
 def test_a_message_is_heard_a_latency_after_it_was_sent() -> None:

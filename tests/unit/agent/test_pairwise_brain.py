@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 
@@ -11,8 +12,10 @@ from tlcomm_core.agent.actions import CountIgnored, TaskEventKind
 from tlcomm_core.agent.events import MessageHeard, TimePassed
 from tlcomm_core.agent.lone_brain import LoneBrain
 from tlcomm_core.agent.pairwise_brain import PairwiseBrain
+from tlcomm_core.agent.visit import partner_of
 from tlcomm_core.method import Method
 from tlcomm_core.protocol.messages import Confirmation, Message
+from tlcomm_core.protocol.team import OnInfeasible
 
 NAMES = ("one", "two", "three")
 Cut = Callable[[float, str, Message], bool]
@@ -162,6 +165,10 @@ def test_another_task_begins_at_the_next_meeting() -> None:
     reached = next(t for t, event in troop.events(REACHED)["one"] if event.round == 1)
     assert agent.held[0].strategy.part_of("one").arrival_s == pytest.approx(reached, abs=1e-6)
     assert start.distance_m(*_place(agent, 0)) == 0.0
+    first, second = (agent.held[index].strategy.part_of("one").task_index for index in (0, 1))
+    ends = (TaskEventKind.ACTION_FINISHED, TaskEventKind.REGION_VISITED)
+    between = [event for _, event in agent.events if event.kind in ends and event.round == 2]
+    assert len(between) == second - first
 
 
 def _place(agent: LoneAgent, index: int) -> tuple[float, float]:
@@ -209,3 +216,35 @@ def test_where_the_map_cuts_it_off_it_waits_until_the_way_is_open() -> None:
     agent.advance_to(2 * PERIOD_S + DURATION_S - 0.5)
     assert agent.pose.distance_m(*place_m) == pytest.approx(0.0, abs=1e-6)
     assert [event.round for _, event in agent.events if event.kind is REACHED] == [0, 1, 1]
+
+
+def test_who_is_in_doubt_leaves_in_time_for_what_comes_next() -> None:
+    """That is another partner's meeting, if one is agreed, not the next one of the same two."""
+    troop = troop_of(until_s=PERIOD_S)
+    agent = troop.agents["one"]
+    brain = agent.brain
+    heading, confirmed = agent.held[0].strategy, agent.held[1].strategy
+    ahead = brain._diary.first
+    assert ahead is not None
+    assert ahead.window == confirmed.round == 2
+    way_s = brain._itinerary.leg(brain._journey.pose, ahead.own).duration_s
+    assert brain._leave_by_s(heading) == ahead.meeting_s - way_s
+    brain._diary.take()
+    way_s = brain._itinerary.leg(brain._journey.pose, heading.part_of("one")).duration_s
+    assert brain._leave_by_s(heading) == heading.communication_s - way_s
+
+
+def test_pairs_skip_no_window() -> None:
+    """Others will be agreed for those in between; they wait, or stop as the team would."""
+    brain = LoneAgent("one", 3, method=Method.PAIRWISE).brain
+    team, pair = brain._settings.team, brain._partners["two"].pair
+    expected = {
+        OnInfeasible.SKIP: OnInfeasible.WAIT,
+        OnInfeasible.WAIT: OnInfeasible.WAIT,
+        OnInfeasible.STOP: OnInfeasible.STOP,
+    }
+    for on_infeasible, own in expected.items():
+        partner = partner_of("one", pair, replace(team, on_infeasible=on_infeasible))
+        assert (partner.name, partner.team.members) == ("two", frozenset({"one", "two"}))
+        assert partner.team.on_infeasible is own
+        assert partner.team.most_windows == 1

@@ -6,10 +6,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from tlcomm_core.field.field import Field
+from tlcomm_core.field.sensors import Sensors
 from tlcomm_core.geometry import Pose
 from tlcomm_core.workspace.grid import Grid
 from tlcomm_core.world.lockstep import StopRule
-from tlcomm_core.world.observation import Connectivity, Odometry
+from tlcomm_core.world.observation import Connectivity, Odometry, Reading
 from tlcomm_core.world.world import Body, Noise, World
 from tlcomm_sim.conductor import RECORDER
 from tlcomm_sim.freerun import FreeRunConductor
@@ -79,6 +81,23 @@ def test_moving_agents_are_shown_at_20_hz() -> None:
     assert len(set(stamps)) == len(stamps)
     assert max(later - earlier for earlier, later in pairwise(stamps)) <= 60 * MS
     assert len(odometry_of(outputs, "b")) == 2
+
+
+def test_who_says_that_it_has_measured_reads_its_sensor() -> None:
+    """If it truly is at the station, and as long as the run isn't over."""
+    conductor = conductor_of(until_s=1.0)
+    conductor._world.equip(Sensors(Field(((0.0, 7.0),), {"m": 0.0}), {"m": (1.0, 1.0, 0.1)}))
+    conductor.begin(0)
+    conductor.pass_time(20 * MS)
+    there, elsewhere, stranger = (
+        conductor.take_answer(Answer(name, 0, ready=True, measured_at="m"))
+        for name in ("a", "b", "nobody")
+    )
+    assert there == [Show(Reading(20 * MS, "a", "m", 7.0))]
+    assert elsewhere == stranger == []
+    for wall_ms in range(220, 1_400, 200):
+        conductor.pass_time(wall_ms * MS)
+    assert conductor.take_answer(Answer("a", 0, ready=True, measured_at="m")) == []
 
 
 def test_long_pause_slips_and_is_told() -> None:

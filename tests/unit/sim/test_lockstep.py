@@ -7,6 +7,7 @@ import pytest
 
 from support.gate import CLOSED_S, OPENED_S, SHUT_S, gate
 from support.in_process_team import InProcessTeam
+from support.measuring_corridor import measuring_corridor
 from tlcomm_core.mission import Mission, create_world
 from tlcomm_core.records import event_log
 from tlcomm_core.scenario.loader import load_scenario
@@ -59,6 +60,18 @@ def test_order_of_arrival_changes_nothing(site: Site, seed: int) -> None:
         if isinstance(output, Show) and not isinstance(output.observation, Occupancy)
     ]
     assert sorted(map(repr, shown)) == sorted(map(repr, expected.odometry + expected.connectivity))
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_readings_and_estimates_are_those_of_the_other_harness(seed: int) -> None:
+    """Each reading is shown once and counted, and agents make the same of them."""
+    site = Site.from_scenario(measuring_corridor())
+    team = team_of(site, rounds=2, seed=seed)
+    team.run()
+    expected = simulate(Mission(site, 0, 2, None)).records
+    assert list(event_log(team.records)) == list(event_log(expected))
+    assert len(expected.estimates) > 20
+    assert sorted(team.records.estimates, key=repr) == sorted(expected.estimates, key=repr)
 
 
 @pytest.mark.parametrize("seed", range(2))

@@ -19,7 +19,7 @@ from support.hand_made_run import (
     write_bag,
 )
 from tlcomm_core.errors import InputError
-from tlcomm_core.records import RunRecords, event_log
+from tlcomm_core.records import EstimateRecord, RunRecords, event_log
 from tlcomm_core.world.observation import Connectivity
 from tlcomm_tools.bag.definitions import load_typestore
 from tlcomm_tools.bag.reader import read_run
@@ -32,6 +32,7 @@ def assert_equal(read: RunRecords, written: RunRecords) -> None:
     assert list(event_log(read)) == list(event_log(written))
     assert sorted(read.odometry, key=repr) == sorted(written.odometry, key=repr)
     assert read.connectivity == written.connectivity
+    assert read.estimates == written.estimates
     assert sorted(read.timings, key=repr) == sorted(written.timings, key=repr)
     assert read.messages_sent == written.messages_sent
     assert read.bytes_sent == written.bytes_sent
@@ -53,6 +54,17 @@ def test_a_bag_gives_back_the_records(tmp_path: Path) -> None:
     assert_equal(run.records, records)
     assert (run.agents, run.end_ns, run.damage) == (AGENTS, 25_000_000_000, "")
     assert run.notes["scenario"].startswith("name: line")
+
+
+def test_a_bag_gives_back_estimates(tmp_path: Path) -> None:
+    """Of those that have measured and of those that have only heard, in order of time."""
+    records = hand_made_records()
+    records.estimates = [
+        EstimateRecord(1_000_000_000, "west", 2.5, 2.5, has_measurement=True),
+        EstimateRecord(1_500_000_000, "east", 2.25, 0.0, has_measurement=False),
+    ]
+    write_bag(tmp_path / "bag", records)
+    assert_equal(read_run(tmp_path / "bag").records, records)
 
 
 def test_records_are_in_order_of_time(tmp_path: Path) -> None:

@@ -2,6 +2,8 @@
 
 from io import StringIO
 
+from tlcomm_core.method import Method
+from tlcomm_tools.comparison.job import Job
 from tlcomm_tools.comparison.progress import JobProgress
 
 
@@ -16,15 +18,16 @@ class FakeClock:
 
 
 def test_the_time_left_is_told_from_what_this_command_did() -> None:
-    """What an earlier one did took none of it."""
+    """By how long jobs take; what an earlier command did took none of it."""
     stream, clock = StringIO(), FakeClock()
-    with JobProgress(8, 2, stream, clock) as progress:
+    missing = [Job("", "", Method.TEAM, "", 0, 0.0, effort) for effort in (3.0, 2.0, 1.0, 4.0)]
+    with JobProgress(missing, 2, stream, clock) as progress:
         clock.now_s = 5.0
         progress.show()
-        progress.count()
-        progress.count()
+        progress.count(missing[1])
+        progress.count(missing[0])
         clock.now_s = 40.0
         progress.show()
         clock.now_s = 44.0
         progress.show()
-    assert stream.getvalue() == ("2/8 runs  0:05 min\n4/8 runs  0:40 min, about 1:20 min left\n")
+    assert stream.getvalue() == ("2/6 runs  0:05 min\n4/6 runs  0:40 min, about 0:40 min left\n")

@@ -8,6 +8,7 @@ import pytest
 from PIL import Image
 
 from tlcomm_tools.figures.gallery import draw_comparison, draw_run, draw_sweep
+from tlcomm_tools.figures.measured import MAIN
 from tlcomm_tools.figures.trace import Trace
 
 
@@ -15,12 +16,12 @@ def found(*values: float | None) -> dict[str, Any]:
     """Return a comparison's document with one measure."""
     return {
         "sweep": {"name": "range"},
-        "measures": {"wait": {"label": "wait (s)", "digits": 2}},
+        "measures": {MAIN[0]: {"label": "wait (s)", "digits": 2}},
         "points": [
             {
                 "value": value,
                 "means": {
-                    method: {"wait": {"mean": mean, "low": mean - 1.0, "high": mean + 1.0}}
+                    method: {MAIN[0]: {"mean": mean, "low": mean - 1.0, "high": mean + 1.0}}
                     for method, mean in (("team", 3.0), ("static", 5.0))
                 },
             }

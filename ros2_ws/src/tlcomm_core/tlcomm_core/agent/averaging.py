@@ -57,10 +57,11 @@ class Averaging(ABC):
 
 
 class Consensus(Averaging):
-    """Weighted steps towards what neighbours say, x_i ← x_i + Σ_j ε_ij (x_j − x_i), and by readings.
+    """Steps towards what neighbours say, x_i ← x_i + Σ_j ε_ij (x_j − x_i), and by readings.
 
     An agent's first reading is its estimate. A later one shifts the estimate by what it differs
-    from the one before, x_i ← x_i + (u_i' − u_i). So the sum of all estimates is that of all newest
+    from the one before, x_i ← x_i + (u_i' − u_i). What an agent without a reading takes over from
+    those that it hears counts as one. So the sum of all estimates is that of all newest
     readings: the team follows their average, though each goes on measuring at its own station, and
     what that station's own error is cancels out once and for all. Were the reading to take the
     estimate's place, each measurement would throw away what the team has come to.
@@ -74,20 +75,20 @@ class Consensus(Averaging):
     ε = 1 / (Δ + 1) is where Δ is known, from what the two ends of a link know. Either is the same
     at both ends, and the x are those that both have said and heard; so what one gains the other
     loses, and the sum of all estimates stays. That needs what is said to be heard. After a loss an
-    end steps towards an older value than it should, or not at all, and the sum shifts by that much.
-    But the weights of a step always sum up to less than 1, so an estimate never leaves the
-    span of those around it, and agreement comes all the same.
+    end steps towards an older value than it should, or not at all, and the sum shifts by that much,
+    for good. But the weights of a step always sum up to less than 1, so no step leads out of the
+    span of the values around, and agreement comes all the same.
 
     Source: R. Olfati-Saber, J. A. Fax and R. M. Murray, "Consensus and Cooperation in Networked
-        Multi-Agent Systems", Proc. IEEE 95(1), 2007, eq. (12) and Theorem 2: average consensus for
-        ε < 1/Δ on a connected undirected graph, Δ its largest number of neighbours; for links that
-        change see its Section III. The local weights are the Metropolis weights of L. Xiao,
-        S. Boyd and S. Lall, "A Scheme for Robust Distributed Sensor Fusion Based on Average
-        Consensus", IPSN 2005. Readings: M. Zhu and S. Martínez, "Discrete-time Dynamic Average
-        Consensus", Automatica 46(2), 2010, first order; after D. P. Spanos, R. Olfati-Saber and
-        R. M. Murray, "Dynamic Consensus on Mobile Networks", IFAC World Congress 2005.
+        Multi-Agent Systems", Proc. IEEE 95(1), 2007, Theorem 2: average consensus for ε < 1/Δ on a
+        connected undirected graph, Δ its largest number of neighbours. The local weights are the
+        Metropolis weights of L. Xiao, S. Boyd and S. Lall, "A Scheme for Robust Distributed Sensor
+        Fusion Based on Average Consensus", IPSN 2005. Readings: M. Zhu and S. Martínez,
+        "Discrete-time Dynamic Average Consensus", Automatica 46(2), 2010, first order; after
+        D. P. Spanos, R. Olfati-Saber and R. M. Murray, "Dynamic Consensus on Mobile Networks",
+        IFAC World Congress 2005.
     Deviates: differences within the tolerance count as none. Agents that have no value yet take the
-        mean of what they hear, until their first reading.
+        mean of what they hear.
     """
 
     def __init__(self, own: str, step: float | None, tolerance: float) -> None:
@@ -102,7 +103,7 @@ class Consensus(Averaging):
         self._step: Final = step
         self._tolerance: Final = tolerance
         self._estimate: float | None = None
-        self._measured: float | None = None
+        self._reading: float | None = None
 
     @property
     def estimate(self) -> float | None:
@@ -112,7 +113,7 @@ class Consensus(Averaging):
     def measure(self, value: float, time_ns: int) -> None:
         """Shift the estimate by what a measurement differs from the last; the first replaces it."""
         del time_ns
-        before, self._measured = self._measured, value
+        before, self._reading = self._reading, value
         if self._estimate is None or before is None:
             self._estimate = value
         else:
@@ -131,6 +132,7 @@ class Consensus(Averaging):
         if self._estimate is None:
             if heard:
                 self._estimate = fsum(word.value for word in heard) / len(heard)
+                self._reading = self._estimate
         elif said is not None:
             # Exactly rounded, so that the order of neighbours doesn't matter.
             self._estimate += fsum(

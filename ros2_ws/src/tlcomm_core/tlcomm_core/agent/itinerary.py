@@ -72,6 +72,7 @@ class Itinerary:
         self._meeting_s = 0.0
         self._failures = 0
         self._is_delayed = False
+        self._set_out_by_s: dict[int, float] = {}
         self._change: TaskChanged | None = None
 
     @property
@@ -108,6 +109,7 @@ class Itinerary:
         self._meeting_s = meeting_s
         self._failures = 0
         self._is_delayed = False
+        self._set_out_by_s = {}
         self._has_reached = False
 
     def heed_map(self, pose: Pose, departure_s: float) -> None:
@@ -117,19 +119,25 @@ class Itinerary:
             pose: where the agent stands at the meeting.
             departure_s: when it leaves.
         """
-        if self._is_map_new:
-            self.heed_time(pose, departure_s)
+        if self._is_map_new and departure_s + self._left_s(pose) > self._latest_s():
+            self.delay()
         self._is_map_new = False
 
-    def heed_time(self, pose: Pose, departure_s: float) -> None:
-        """Note whether what was agreed takes longer than there is time for.
+    def keep_time(self, pose: Pose, leeway_s: float) -> None:
+        """Let time decide on each step that is begun later than what was agreed leaves time for.
 
         Args:
-            pose: where the agent stands at the meeting.
-            departure_s: when it leaves.
+            pose: where the agent sets out from.
+            leeway_s: how much later than agreed it may be at the meeting.
         """
-        if departure_s + self._left_s(pose) > self._latest_s():
+        legs, steps = self._legs(pose), self._steps_left()
+        if len(legs) <= len(steps):
             self.delay()
+            return
+        by_s = self._latest_s() + leeway_s - legs[-1].duration_s
+        for number in reversed(range(len(steps))):
+            by_s -= legs[number].duration_s + steps[number].duration_s
+            self._set_out_by_s[self.done + 1 + number] = by_s
 
     def change_map(self, travel: TravelTimes, pose: Pose) -> None:
         """Go by another map from now on.
@@ -231,7 +239,8 @@ class Itinerary:
             return None
         if not self._steps_left() or not self._ways.lead(pose, self.step.location):
             return meeting
-        if not self._is_delayed:
+        is_late = now_s > self._set_out_by_s.get(self.done + 1, math.inf)
+        if not self._is_delayed and not is_late:
             return None
         is_possible = self._failures <= self._retries and self._has_time(pose, now_s)
         return None if is_possible else meeting

@@ -237,14 +237,17 @@ class PairwiseBrain:
         self._meetings_ended += 1
         self._heading = heading = self._diary.take()
         self._itinerary.agree(heading.own, heading.meeting_s)
-        self._itinerary.heed_time(self._journey.pose, now_s - self._leeway_s(heading))
+        self._itinerary.keep_time(self._journey.pose, self._leeway_s(heading))
         return [*actions, *self._journey.set_out(now_s, heading.window)]
 
     def _leeway_s(self, heading: Appointment) -> float:
-        """Return how late an agent may be rather than leave a step out: D_c, within the window."""
+        """Return how late an agent may be rather than leave a step out.
+
+        That is D_c, or half of what is left of the window: it may lose more on the last leg.
+        """
         team = self._settings.team
         closes_s = team.opens_s(heading.window + 1) - team.margin_s
-        return max(0.0, min(team.duration_s, closes_s - heading.meeting_s))
+        return max(0.0, min(team.duration_s, 0.5 * (closes_s - heading.meeting_s)))
 
     def _book(self, encounter: Encounter, now_s: float) -> None:
         """Put the pair's next meeting in the diary: as confirmed, or else by its whereabouts."""

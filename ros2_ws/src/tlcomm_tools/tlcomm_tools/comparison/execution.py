@@ -37,14 +37,14 @@ def run_missing(
     missing = sorted((job for job in jobs if not archive.has(job)), key=lambda job: -job.effort)
     done = len(jobs) - len(missing)
     try:
-        with JobProgress(len(jobs), done) as progress:
+        with JobProgress(missing, done) as progress:
 
             def on_wait() -> None:
                 act()
                 progress.show()
 
             for job, error in _done(missing, archive, workers, on_wait):
-                progress.count()
+                progress.count(job)
                 if error is None:
                     done += 1
                 else:

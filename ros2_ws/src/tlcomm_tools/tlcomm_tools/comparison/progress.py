@@ -4,9 +4,10 @@
 """
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TextIO
 
+from tlcomm_tools.comparison.job import Job
 from tlcomm_tools.progress import Bar
 
 __all__ = ["JobProgress"]
@@ -19,7 +20,7 @@ class JobProgress(Bar):
 
     def __init__(
         self,
-        jobs: int,
+        missing: Sequence[Job],
         done: int,
         stream: TextIO | None = None,
         clock: Callable[[], float] = time.monotonic,
@@ -27,18 +28,21 @@ class JobProgress(Bar):
         """Show progress towards all jobs.
 
         Args:
-            jobs: how many there are.
-            done: how many of them an earlier command did.
+            missing: those to do.
+            done: how many an earlier command did.
             stream: where to; by default standard error.
             clock: wall time in seconds.
         """
         super().__init__(stream, clock)
-        self._jobs = jobs
-        self._found = self._done = done
+        self._jobs = done + len(missing)
+        self._done = done
+        self._effort = sum(job.effort for job in missing)
+        self._spent = 0.0
 
-    def count(self) -> None:
+    def count(self, job: Job) -> None:
         """Count one more that is done."""
         self._done += 1
+        self._spent += job.effort
 
     def show(self) -> None:
         """Show how far it is, if it is time to."""
@@ -47,9 +51,8 @@ class JobProgress(Bar):
 
     def _text(self) -> str:
         text = f"{self._done}/{self._jobs} runs  {_clock_text(self.elapsed_s)}"
-        done = self._done - self._found
-        if done:
-            left_s = self.elapsed_s / done * (self._jobs - self._done)
+        if self._spent:
+            left_s = self.elapsed_s * (self._effort - self._spent) / self._spent
             text += f", about {_clock_text(left_s)} left"
         return text
 

@@ -2,16 +2,29 @@
 
 ``Mark``       a mean over seeds, at a value of what is varied
 ``Measured``   a measure of all methods
-``measured``   those of a comparison's document by which methods differ
+``MAIN``       the measures that are drawn; the rest is in tables
+``measured``   those of a comparison's document by which methods or values differ
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 from tlcomm_tools.figures.style import in_order
 
-__all__ = ["Mark", "Measured", "measured"]
+__all__ = ["MAIN", "Mark", "Measured", "measured"]
+
+MAIN: Final = (
+    "additional_s",
+    "lost_per_window_s",
+    "makespan_sum_s",
+    "tasks_per_hour",
+    "information_age_mean_s",
+    "windows_kept",
+    "deviation_mean",
+    "deviation_max",
+    "bytes",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,13 +58,14 @@ class Measured:
 
 
 def measured(found: Mapping[str, Any]) -> tuple[Measured, ...]:
-    """Return the measures by which methods or values differ.
+    """Return the main measures by which methods or values differ.
 
     Args:
         found: a comparison's document, ``tlcomm-compare/1``.
     """
-    own = (_measured(found, key, measure["label"]) for key, measure in found["measures"].items())
-    return tuple(measure for measure in own if _differs(measure))
+    labels = {key: own["label"] for key, own in found["measures"].items()}
+    known = (_measured(found, key, labels[key]) for key in MAIN if key in labels)
+    return tuple(measure for measure in known if _differs(measure))
 
 
 def _measured(found: Mapping[str, Any], key: str, label: str) -> Measured:

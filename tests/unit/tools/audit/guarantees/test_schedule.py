@@ -6,6 +6,7 @@ import pytest
 
 from support.hand_made_trio import hold, trio_scenario
 from tlcomm_core.records import RunRecords
+from tlcomm_core.scenario.model import Scenario
 from tlcomm_tools.audit.evidence import Evidence
 from tlcomm_tools.audit.guarantees.guarantee import Guarantee
 from tlcomm_tools.audit.guarantees.schedule import keep_schedule
@@ -14,13 +15,13 @@ Agreed = Mapping[tuple[str, str], Sequence[int]]
 FRONT, BACK, ENDS = ("bow", "mid"), ("mid", "stern"), ("bow", "stern")
 
 
-def judge(agreed: Agreed, end_s: float = 65.0) -> Guarantee:
+def judge(agreed: Agreed, end_s: float = 65.0, scenario: Scenario | None = None) -> Guarantee:
     """Judge the schedule of what pairs have agreed on; six windows are complete."""
     records = RunRecords()
     for pair, windows in agreed.items():
         for window in windows:
             hold(records, 0.0, pair, window, pair)
-    return keep_schedule(Evidence.gather(trio_scenario(), records, end_s))
+    return keep_schedule(Evidence.gather(scenario or trio_scenario(), records, end_s))
 
 
 @pytest.mark.parametrize(
@@ -87,3 +88,14 @@ def test_the_cycle_is_found() -> None:
 def test_each_flaw_is_named(agreed: Agreed, violations: list[str]) -> None:
     """Window by window and pair by pair, and nothing else."""
     assert list(judge(agreed).violations) == violations
+
+
+def test_two_halves_are_no_team() -> None:
+    """Everybody meets somebody, and still nothing gets from one half to the other."""
+    trio = trio_scenario()
+    agents = {"aft": trio.agents["stern"], **trio.agents}
+    found = judge(
+        {FRONT: (1, 2, 3, 4, 5), ("aft", "stern"): (1, 2, 3, 4, 5)},
+        scenario=trio.model_copy(update={"agents": agents}),
+    )
+    assert found.violations == ("the 2 pairs don't link the whole team",)

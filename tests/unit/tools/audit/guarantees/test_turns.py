@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from support.hand_made_run import task
-from support.hand_made_trio import TRIO, by_turns, hold, trio_scenario
+from support.hand_made_trio import TRIO, by_turns, hold, move, trio_scenario
 from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.method import Method
 from tlcomm_core.records import RunRecords
@@ -104,6 +104,33 @@ def test_a_failed_action_is_begun_anew_in_the_same_turn() -> None:
         task(5.1, "bow", TaskEventKind.ACTION_FINISHED, action="pick", round_=1),
     ]
     assert violations_of(records) == []
+
+
+def test_an_action_ends_with_its_failure() -> None:
+    """Who gives up holds nobody up."""
+    records = by_turns()
+    fault = replace(
+        records.tasks[1].event, kind=TaskEventKind.FAULT, detail="action=pick attempt=3"
+    )
+    records.tasks[1] = replace(records.tasks[1], event=fault)
+    records.tasks = [own for own in records.tasks if own.agent != "bow" or own.event.round == 1]
+    assert violations_of(records) == []
+
+
+def test_each_has_its_share_of_the_time() -> None:
+    """A task may take as many times longer as there are leaders: 90 s here, and no longer."""
+    scenario = trio_scenario()
+    agents = {
+        name: own.model_copy(update={"task": "G F (dock & pick)"})
+        for name, own in scenario.agents.items()
+    }
+    changed = scenario.model_copy(update={"agents": agents})
+    for end_s, is_fine in ((89.0, True), (91.0, False)):
+        records = by_turns()
+        for agent, x_m in (("bow", 1.25), ("mid", 2.0), ("stern", 2.75)):
+            move(records, agent, [(0.0, x_m), (end_s, x_m)])
+        found = audit_run(changed, Method.ALL_TIME, records, nanoseconds(end_s))
+        assert (found.violations == ()) is is_fine
 
 
 def test_a_turn_may_be_without_a_step() -> None:
