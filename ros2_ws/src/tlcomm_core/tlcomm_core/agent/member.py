@@ -288,12 +288,12 @@ def create(
     scenario = site.scenario
     allowance_s = _ALLOWANCE_S[pacing]
     tolerance_m = scenario.drive_of(name).position_tolerance_m
+    team = team_of(site, solver, method)
     if method.goes_together:
         travel = joint_travel(site, atlas, allowance_s)
+        check_straights(scenario, team, travel.grid)
     else:
         travel = travel_of(name, site, atlas, allowance_s)
-    team = team_of(site, solver, method)
-    check_start(site, method)
     # Members' plans lead through regions: with this done, the first round takes no longer than
     # later ones.
     travel.prepare(site.region_location.values())
