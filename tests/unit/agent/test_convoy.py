@@ -6,9 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tlcomm_core.agent.approach import Approaches
 from tlcomm_core.agent.convoy import Part, contraction, is_together, turn
 from tlcomm_core.game.offer import MemberOffer, PlannedStop
 from tlcomm_core.geometry import Pose, wrap_angle
+from tlcomm_core.protocol.team import Team
 from tlcomm_core.workspace.grid import Grid
 from tlcomm_core.workspace.travel import Motion, TravelTimes
 
@@ -147,19 +149,15 @@ def test_together_is_who_is_at_one_place() -> None:
     assert is_together(offers[:1], 0.0)
 
 
-def linked(count: int, *links: tuple[int, int]) -> np.ndarray:
-    """Return a matrix of links."""
-    matrix = np.eye(count, dtype=np.bool_)
-    for one, other in links:
-        matrix[one, other] = matrix[other, one] = True
-    return matrix
+def within(range_m: float) -> Approaches:
+    """Return the approaches of a team with such a range."""
+    return Approaches(TRAVEL, Team(frozenset("ab"), range_m, 60.0, 5.0))
 
 
 def test_the_outermost_go_straight_to_their_parents() -> None:
     """In a line of five both ends go next to the middle's neighbours; the rest stands still."""
     offers = [offer_at("abcde"[k], 3.25 + 0.5 * k, 0.75) for k in range(5)]
-    links = linked(5, *((k, k + 1) for k in range(4)))
-    parts = contraction(offers, links, DEPARTURE_S, TRAVEL)
+    parts = contraction(offers, within(0.6), DEPARTURE_S, TRAVEL)
     assert [part.strategy.x_m for part in parts] == [3.75, 3.75, 4.25, 4.75, 4.75]
     assert [len(part.way.leg.waypoints_m) for part in parts] == [1, 0, 0, 0, 1]
     assert {part.steps for part in parts} == {0}
@@ -183,8 +181,7 @@ def test_contractions_come_to_an_end() -> None:
         rounds = 0
         while len(set(places_m)) > 1:
             offers = [offer_at("abcdefgh"[k], *place_m) for k, place_m in enumerate(places_m)]
-            links = np.array([[math.dist(p, q) <= 0.51 for q in places_m] for p in places_m])
-            parts = contraction(offers, links, DEPARTURE_S, TRAVEL)
+            parts = contraction(offers, within(0.51), DEPARTURE_S, TRAVEL)
             places_m = [(part.strategy.x_m, part.strategy.y_m) for part in parts]
             rounds += 1
         assert rounds <= 4
@@ -193,5 +190,5 @@ def test_contractions_come_to_an_end() -> None:
 def test_without_links_all_go_to_the_first() -> None:
     """Some were displaced, or the map has closed straights."""
     offers = [offer_at("a", 3.25, 0.75), offer_at("b", 5.25, 0.75), offer_at("c", 5.25, 2.25)]
-    parts = contraction(offers, linked(3, (1, 2)), DEPARTURE_S, TRAVEL)
+    parts = contraction(offers, within(1.6), DEPARTURE_S, TRAVEL)
     assert {(part.strategy.x_m, part.strategy.y_m) for part in parts} == {(3.25, 0.75)}

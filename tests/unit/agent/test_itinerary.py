@@ -159,8 +159,8 @@ def test_without_a_meeting_ahead_steps_follow_one_another() -> None:
 
 
 def test_an_agreed_way_is_gone_at_the_agreed_hours() -> None:
-    """From where it begins, be it to the meeting or to a step; from elsewhere, and once the meeting
-    is reached, the shortest way at any time.
+    """From where it begins, be it to the meeting or to a step; from elsewhere, after a step or once
+    the meeting is reached, the shortest way at any time.
     """
     itinerary = Itinerary(PLAN, PLANT.times, RETRIES)
     meeting = Strategy("one", PLACE.x_m, PLACE.y_m, 0, 100.0, 0.0)
@@ -173,8 +173,10 @@ def test_an_agreed_way_is_gone_at_the_agreed_hours() -> None:
     elsewhere = itinerary.leg(itinerary.leg(PLACE, None).arrival, meeting)
     assert elsewhere.arrival.distance_m(PLACE.x_m, PLACE.y_m) == 0.0
     assert itinerary.hours(elsewhere) == (-math.inf, -math.inf)
-    itinerary.reach_meeting()
-    assert itinerary.leg(AWAY, meeting) is not round_about
+    for goes_on in (itinerary.finish_step, itinerary.reach_meeting):
+        itinerary.agree(meeting, math.inf, AgreedLeg(AWAY, round_about, 20.0, 30.0))
+        goes_on()
+        assert itinerary.leg(AWAY, meeting) is not round_about
 
 
 def test_an_agreed_way_that_the_map_has_closed_isnt_gone() -> None:
@@ -196,3 +198,18 @@ def test_an_agreed_way_that_the_map_has_closed_isnt_gone() -> None:
     assert leg is not agreed
     target = closed.location_at(PLACE.x_m, PLACE.y_m)
     assert target is None or leg == travel.leg_to(AWAY, target)
+
+
+def test_how_many_steps_lead_to_the_next_action() -> None:
+    """It counts itself; where there is none, the next step and the one after it."""
+    itinerary = Itinerary(PLAN, PLANT.times, RETRIES)
+    for _ in range(8):
+        counted = itinerary.steps_to_action
+        ahead = [PLAN.step(itinerary.done + count) for count in range(1, counted + 1)]
+        assert counted >= 2
+        assert [step.action is None for step in ahead[:-1]] == [True] * (
+            counted - 1
+        ) or counted == 2
+        itinerary.finish_step()
+    patrol = plan_task(parse("G F p & G F m & G F r"), PLANT.system())
+    assert Itinerary(patrol, PLANT.times, RETRIES).steps_to_action == 2

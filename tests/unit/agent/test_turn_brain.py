@@ -126,7 +126,7 @@ def test_a_member_is_told_whether_its_team_can_begin() -> None:
     scenario = hall(2).scenario
     communication = scenario.communication.model_copy(update={"range_m": 0.51})
     site = Site.from_scenario(scenario.model_copy(update={"communication": communication}))
-    with pytest.raises(PlanningError, match=r"agents\.two\.start: free straights"):
+    with pytest.raises(PlanningError, match=r"agents\.two\.start: no ways within"):
         create("one", site, Pacing.EVENT, Atlas(site.grid), method=Method.ALL_TIME)
     create("one", site, Pacing.EVENT, Atlas(site.grid))
 

@@ -1,20 +1,15 @@
 """What a team that takes turns does next."""
 
-from dataclasses import replace
-
-import numpy as np
 import pytest
 
 from support.hall import hall
 from tlcomm_core.agent.charts import Charts
-from tlcomm_core.agent.turn_rounds import TurnRounds, check_straights, straights
-from tlcomm_core.errors import PlanningError
+from tlcomm_core.agent.turn_rounds import TurnRounds
 from tlcomm_core.game.algorithm import solve
 from tlcomm_core.game.offer import MemberOffer, PlannedStop
 from tlcomm_core.game.rules import Rules
 from tlcomm_core.protocol.turns import TurnTeam
 from tlcomm_core.workspace.atlas import Atlas
-from tlcomm_core.workspace.grid import Grid
 
 NAMES = ("one", "three", "two")
 TEAM = TurnTeam(frozenset(NAMES), 0.96, 30.0, 0.25, rules=Rules(keeps_places=True), off_m=0.02)
@@ -68,33 +63,3 @@ def test_there_is_nothing_to_improve(xs_m: tuple[float, float, float]) -> None:
     parts = ROUNDS.parts(1, 5.0, offers)
     assert solution.nash == solution.initial
     assert problem.strategies(solution.nash) == tuple(part.strategy for part in parts)
-
-
-def test_straights_are_in_range_and_free() -> None:
-    """Two in range are linked unless a closed cell, or one to be avoided, is in the way."""
-    places_m = np.array([(2.25, 0.75), (3.15, 0.75), (4.25, 0.75)])
-    free = [(0, 1)]
-    wall = Grid((6.0, 2.0), 0.5, [(2.6, 0.5, 2.9, 1.0)])
-    avoiding = GRID.avoiding({"danger": GRID.locations_within(2.75, 0.75, 0.1)})
-    for grid, links in ((GRID, free), (wall, []), (avoiding, [])):
-        linked = straights(places_m, grid, TEAM)
-        assert [tuple(pair) for pair in np.argwhere(np.triu(linked, k=1))] == links
-        assert (linked == linked.T).all()
-
-
-def test_where_radios_must_see_straights_keep_clear_of_walls() -> None:
-    """By what each may be off its place."""
-    places_m = np.array([(2.25, 0.48), (2.75, 0.48)])
-    near = Grid((6.0, 2.0), 0.5, [(2.0, 0.5, 3.0, 1.0)])
-    seeing = replace(TEAM, clearance_m=0.01)
-    assert straights(places_m, near, seeing).all()
-    assert not straights(places_m, near, replace(seeing, clearance_m=0.03)).all()
-
-
-def test_a_team_that_can_not_come_together_is_told_so() -> None:
-    """Who stands apart from whom, and why that matters, in one line."""
-    scenario = hall(3).scenario
-    check_straights(scenario, TEAM, GRID)
-    cut = Grid((6.0, 2.0), 0.5, [(3.4, 0.5, 3.6, 1.0)])
-    with pytest.raises(PlanningError, match=r"agents\.two\.start: free straights .* to 'one'"):
-        check_straights(scenario, TEAM, cut)

@@ -29,6 +29,7 @@ from tlcomm_core.agent.journey import Journey
 from tlcomm_core.agent.meeting import Meeting, News
 from tlcomm_core.agent.offering import offer_of
 from tlcomm_core.agent.settings import Settings
+from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.actions import CountIgnored
@@ -178,8 +179,7 @@ class TeamBrain:
 
     def _reach_meeting(self, now_s: float, expected: Strategy | None = None) -> list[Action]:
         actions = self._journey.reach_meeting(self._round, now_s, expected)
-        settings, pose = self._settings, self._journey.pose
-        offer = offer_of(settings, self._itinerary, pose, self._map_ns, self._round, now_s)
+        settings, offer = self._settings, self._offer(now_s)
         self._meeting = Meeting(
             settings.name,
             Negotiation(offer, self._round + 1, settings.team, settings.rounds),
@@ -187,6 +187,10 @@ class TeamBrain:
             self._leave_by_s,
         )
         return actions
+
+    def _offer(self, now_s: float) -> MemberOffer:
+        pose = self._journey.pose
+        return offer_of(self._settings, self._itinerary, pose, self._map_ns, self._round, now_s)
 
     def _leave_by_s(self, strategy: TeamStrategy) -> float:
         """Return when to leave at the latest to be punctual, going straight to the next meeting."""

@@ -14,15 +14,14 @@ on they are at the same point, with the same heading, at every instant, and befo
 moves. So the distance of any two is 0 ≤ R. The way leads through the regions that the leader's plan
 visits in passing, and ends at its next action; the leader performs that while the others stand by.
 
-A contraction. Not all stand at one place. Let linked pairs be those that are in the planned range
-and in sight of each other, with a free straight between them; let a tree of shortest ways over
-links lead to a root; and let those at its largest depth, which is D, go straight to where their
-parents are. The parents, at depth D − 1, stand still, and so does everyone else but the children. A
-child's distance to its parent falls from at most R to 0, and its sight of it stays free, as it
-moves along the line of sight. All links between those that stand still stay. So at every instant
-the tree connects the team, at whatever times and speeds its members set out. Afterwards the root's
-ways have D − 1 links at most; so after at most D contractions all are at the root's place, and
-after as many as the least depth of all trees if each time the root with the least is taken.
+A contraction. Not all stand at one place. Let two be linked if each could approach the other
+(``approach``) while the other stands still, without losing it; let a tree of shortest ways over
+links lead to a root; and let those at its largest depth, which is D, go to where their parents are.
+The parents, at depth D − 1, stand still, and so does everyone else but the children. So all links
+of the tree stay, and at every instant it connects the team, at whatever times and speeds its
+members set out. Afterwards the root's ways have D − 1 links at most; so after at most D
+contractions all are at the root's place, and after as many as the least depth of all trees if each
+time the root with the least is taken.
 
 What this promises for the places that controllers aim at holds for where agents are as well as they
 keep to their speeds: it needs no more than that what they are off by, with the range, stays below
@@ -46,14 +45,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import shortest_path
 
+from tlcomm_core.agent.approach import Approaches, Corners
 from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.geometry import Pose, wrap_angle
 from tlcomm_core.workspace.travel import Leg, Motion, TravelTimes
 
 __all__ = ["AgreedLeg", "Part", "contraction", "is_together", "turn"]
-
-Corners = tuple[tuple[float, float], ...]
 
 # A turn and a straight are two segments of a controller; as many are spare.
 _SEGMENTS: Final = 4
@@ -145,25 +143,27 @@ def turn(
 
 def contraction(
     offers: Sequence[MemberOffer],
-    linked: NDArray[np.bool_],
+    approaches: Approaches,
     departure_s: float,
     travel: TravelTimes,
 ) -> tuple[Part, ...]:
     """Return everybody's part when the outermost go to those next to them, and all others stay.
 
-    If the links don't connect all members, all go to the first's place, as directly as they can.
+    If approaches don't link all members, all go to the first's place, as directly as they can.
 
     Args:
         offers: all members'.
-        linked: bool[N, N]: who may go straight to whom.
+        approaches: who may go to whom.
         departure_s: when the present meeting ends.
         travel: as for ``turn``.
     """
     poses = [_pose_of(offer) for offer in offers]
-    legs = [
-        _straight(pose, poses[parent], travel.motion)
-        for pose, parent in zip(poses, _parents(linked), strict=True)
-    ]
+    ends = [poses[parent] for parent in _parents(approaches.linked(poses))]
+    legs = []
+    for pose, end in zip(poses, ends, strict=True):
+        corners_m = approaches.corners_m(pose, end)
+        as_directly_m = ((end.x_m, end.y_m),) if corners_m is None else corners_m
+        legs.append(_way(pose, as_directly_m, _arrival(pose, as_directly_m), travel.motion).leg)
     ends_s = departure_s + max(leg.duration_s for leg in legs) + _ROUNDING_S
     return tuple(
         _part(
@@ -224,12 +224,12 @@ def _lead(offer: MemberOffer, travel: TravelTimes) -> _Lead:
     return _Lead((legs[0],), 1, 0.0)
 
 
-def _straight(start: Pose, end: Pose, motion: Motion) -> Leg:
-    if start.distance_m(end.x_m, end.y_m) == 0.0:
-        return Leg((), 0.0, 0.0, start)
-    yaw_rad = math.atan2(end.y_m - start.y_m, end.x_m - start.x_m)
-    arrival = Pose(end.x_m, end.y_m, yaw_rad)
-    return _way(start, ((end.x_m, end.y_m),), arrival, motion).leg
+def _arrival(start: Pose, corners_m: Corners) -> Pose:
+    """Return the pose in which a way over corners ends."""
+    if not corners_m:
+        return start
+    from_m, to_m = ((start.x_m, start.y_m), *corners_m)[-2:]
+    return Pose(*to_m, math.atan2(to_m[1] - from_m[1], to_m[0] - from_m[0]))
 
 
 def _without_near(start: Pose, corners_m: Corners, near_m: float) -> Corners:

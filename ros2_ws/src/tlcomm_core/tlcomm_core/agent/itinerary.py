@@ -38,6 +38,8 @@ __all__ = ["Itinerary"]
 
 # What sums of times may be off by, each rounded to nanoseconds.
 _ROUNDING_S: Final = 1e-6
+# An offer lists the next step and the one that it leads on to.
+_LEAST_STOPS: Final = 2
 
 
 class Itinerary:
@@ -77,6 +79,14 @@ class Itinerary:
     def step(self) -> PlanStep:
         """The step to do next, or under way."""
         return self._plan.step(self.done + 1)
+
+    @property
+    def steps_to_action(self) -> int:
+        """How many steps there are up to the next that takes time; at least two."""
+        ahead = len(self._plan.prefix) + len(self._plan.suffix)
+        steps = (self._plan.step(self.done + count) for count in range(1, ahead + 1))
+        count = next((n for n, step in enumerate(steps, start=1) if step.duration_s > 0.0), 0)
+        return max(count, _LEAST_STOPS)
 
     @property
     def travel(self) -> TravelTimes:

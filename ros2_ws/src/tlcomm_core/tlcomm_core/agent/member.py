@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tlcomm_core.agent.actions import Action, CountIgnored
+from tlcomm_core.agent.approach import check_approaches
 from tlcomm_core.agent.avoidance import joint_travel, travel_of
 from tlcomm_core.agent.brain import Brain
 from tlcomm_core.agent.channel import Channel
@@ -33,7 +34,6 @@ from tlcomm_core.agent.methods import brain_for, rounds_for, rules_for
 from tlcomm_core.agent.planner import Planner, local_plan, plan_for
 from tlcomm_core.agent.radio import OUT_OF_RANGE, UNSEEN, Radio
 from tlcomm_core.agent.settings import Settings
-from tlcomm_core.agent.turn_rounds import check_straights
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.game.solver import DEFAULT, Solver
 from tlcomm_core.geometry import Pose
@@ -258,7 +258,7 @@ def check_start(site: Site, method: Method) -> None:
     """
     if method.goes_together:
         travel = joint_travel(site, Atlas(site.grid, site.region_discs))
-        check_straights(site.scenario, team_of(site, method=method), travel.grid)
+        check_approaches(site.scenario, team_of(site, method=method), travel)
 
 
 def create(
@@ -288,12 +288,12 @@ def create(
     scenario = site.scenario
     allowance_s = _ALLOWANCE_S[pacing]
     tolerance_m = scenario.drive_of(name).position_tolerance_m
+    team = team_of(site, solver, method)
     if method.goes_together:
         travel = joint_travel(site, atlas, allowance_s)
+        check_approaches(scenario, team, travel)
     else:
         travel = travel_of(name, site, atlas, allowance_s)
-    team = team_of(site, solver, method)
-    check_start(site, method)
     # Members' plans lead through regions: with this done, the first round takes no longer than
     # later ones.
     travel.prepare(site.region_location.values())

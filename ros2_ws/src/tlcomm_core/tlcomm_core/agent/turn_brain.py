@@ -14,6 +14,7 @@ from dataclasses import replace
 from tlcomm_core.agent.brain import TeamBrain
 from tlcomm_core.agent.settings import Settings
 from tlcomm_core.agent.turn_rounds import TurnRounds
+from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 
 __all__ = ["TurnBrain"]
@@ -31,6 +32,11 @@ class TurnBrain(TeamBrain):
         """
         super().__init__(settings)
         self._turns = turns
+
+    def _offer(self, now_s: float) -> MemberOffer:
+        """Return no more of the plan than a turn may be about."""
+        offer = super()._offer(now_s)
+        return replace(offer, stops=offer.stops[: self._itinerary.steps_to_action])
 
     def _agree(self, strategy: TeamStrategy, own: Strategy, departure_s: float) -> None:
         """Go as all others reckon with; but no hour is too late for the step."""
