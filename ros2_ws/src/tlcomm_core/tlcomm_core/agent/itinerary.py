@@ -13,6 +13,8 @@ is no longer than the rest of what had fitted in, which leads there too.
 The agreed h counts the plan's steps, and others reckon with them. So another plan begins at the
 next meeting, with what the agent offers there.
 
+Who agrees on meetings far ahead (``keep_time``) lets time decide on each step that it is late for.
+
 When the map changes, ways may become longer: if what is left takes more time than before, time
 decides on each step as after a failure. A step that can't be reached any more ends what is done
 before the meeting; a place of meeting that can't is replaced by the nearest one that can.
