@@ -265,7 +265,11 @@ class Itinerary:
 
     def is_cut_off(self, pose: Pose) -> bool:
         """Return whether the agreed place of meeting can't be reached."""
-        return not self._ways.lead(pose, self._place(self._agreed()))
+        return not self.reaches(pose, self._agreed())
+
+    def reaches(self, pose: Pose, meeting: Strategy) -> bool:
+        """Return whether a way leads from a pose to the place of a meeting."""
+        return self._ways.lead(pose, self._place(meeting))
 
     def calls_away(self, pose: Pose) -> bool:
         """Return whether the agreed place of meeting is elsewhere, and can be reached."""
