@@ -117,23 +117,27 @@ def jobs_of(design: Design) -> list[Job]:
             for a method.
         PlanningError: an agent starts where its task forbids it to be.
     """
-    return [
-        _job(design, value, scenario, method, seed)
-        for value, scenario in design.points()
-        for method in design.methods_of(scenario)
-        for seed in range(design.seeds)
-    ]
+    jobs: list[Job] = []
+    for value, scenario in design.points():
+        texts = [dumps(perturbed(scenario, seed)) for seed in range(design.seeds)]
+        jobs += [
+            _job(design, value, scenario, method, seed, text)
+            for method in design.methods_of(scenario)
+            for seed, text in enumerate(texts)
+        ]
+    return jobs
 
 
-def _job(design: Design, value: float | None, scenario: Scenario, method: Method, seed: int) -> Job:
+def _job(
+    design: Design, value: float | None, scenario: Scenario, method: Method, seed: int, text: str
+) -> Job:
     above = ""
     if design.sweep is not None and value is not None:
         above = f"{design.sweep.name}-{shown(value)}/"
     until_s = design.end_s(scenario)
     return Job(
         folder=f"{above}{method}-{seed}",
-        # The same for all methods: it follows from the seed.
-        scenario=dumps(perturbed(scenario, seed)),
+        scenario=text,
         method=method,
         solver=design.solver.name,
         seed=seed,
