@@ -82,3 +82,5 @@ def test_a_damaged_result_is_named(tmp_path: Path) -> None:
     archive.keep(job(), {**FILES, "result.json": "{"})
     with pytest.raises(InputError, match=r"team-0/result\.json.*remove its folder"):
         archive.result(job())
+    with pytest.raises(InputError, match=r"team-0/audit\.json.*remove its folder"):
+        archive.audit(job())

@@ -32,6 +32,9 @@ DESIGN = Design(
 )
 
 
+SOUND = {"verdict": "ok"}
+
+
 def result(additional_s: float | None, verdict: object = "ok") -> dict[str, Any]:
     """Return a result document, as far as it is compared."""
     team = {own.name: 1 for own in fields(TeamMetrics)}
@@ -43,7 +46,7 @@ def result(additional_s: float | None, verdict: object = "ok") -> dict[str, Any]
 def rows(design: Design, *additional_s: float | None) -> list[Row]:
     """Return a row per job, with its additional time."""
     jobs = jobs_of(design)
-    return [Row(job, result(own), None) for job, own in zip(jobs, additional_s, strict=True)]
+    return [Row(job, result(own), SOUND, None) for job, own in zip(jobs, additional_s, strict=True)]
 
 
 def test_means_and_paired_differences() -> None:
@@ -86,15 +89,20 @@ def test_failures_are_rows_with_their_reason() -> None:
     team, static = jobs_of(design)
     found = document(
         design,
-        [Row(team, None, "no admissible meeting"), Row(static, result(1.0, ["one", "two"]), None)],
+        [
+            Row(team, None, None, "no admissible meeting"),
+            Row(static, result(1.0, ["one", "two"]), {"verdict": ["three"]}, None),
+        ],
     )
+    assert [run["audit"] for run in found["runs"]] == [[], ["three"]]
     assert [run["error"] for run in found["runs"]] == ["no admissible meeting", None]
     assert [run["verdict"] for run in found["runs"]] == [[], ["one", "two"]]
     assert found["runs"][0]["measures"] == dict.fromkeys(MEASURES)
     assert found["points"][0]["means"]["team"] == dict.fromkeys(MEASURES)
     for text in (format_findings(found), markdown(found)):
         assert "- team-0: no admissible meeting\n" in text
-        assert "- static-0: one (and 1 more)" in text
+        assert "- static-0: one (and 2 more)" in text
+        assert "0 of 2 runs keep what their methods promise" in text
 
 
 def test_the_csv_is_the_document() -> None:
@@ -103,7 +111,16 @@ def test_the_csv_is_the_document() -> None:
     found = document(design, rows(design, 0.1, 1 / 3, None, 4.0, 5.0, 6.0, 7.0, 8.0))
     read = list(csv.DictReader(io.StringIO(csv_text(found))))
     assert len(read) == len(found["runs"]) == 8
-    assert list(read[0]) == ["range", "method", "seed", "folder", "error", "verdict", *MEASURES]
+    assert list(read[0]) == [
+        "range",
+        "method",
+        "seed",
+        "folder",
+        "error",
+        "verdict",
+        "audit",
+        *MEASURES,
+    ]
     for own, run in zip(read, json.loads(json.dumps(found["runs"])), strict=True):
         assert float(own["range"]) == run["value"]
         assert (own["method"], int(own["seed"])) == (run["method"], run["seed"])

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, Final, Self
 
 from tlcomm_core.errors import InputError
-from tlcomm_tools.comparison.job import TRACE, Job
+from tlcomm_tools.comparison.job import AUDIT, TRACE, Job
 from tlcomm_tools.figures.trace import Trace
 from tlcomm_tools.folder import dumps_json, replace_file, unused_folder
 
@@ -101,14 +101,15 @@ class Archive:
         Raises:
             InputError: it can't be read.
         """
-        path = self.folder(job) / "result.json"
-        try:
-            result: dict[str, Any] = json.loads(path.read_text("utf-8"))
-        except (OSError, ValueError) as error:
-            raise InputError(
-                f"{str(path)!r} can't be read ({error}); remove its folder to run it again"
-            ) from error
-        return result
+        return self._document(job, "result.json")
+
+    def audit(self, job: Job) -> dict[str, Any]:
+        """Return what the audit found of a job that is done.
+
+        Raises:
+            InputError: it can't be read.
+        """
+        return self._document(job, AUDIT)
 
     def traces(self, jobs: Iterable[Job]) -> list[Trace]:
         """Return what figures are drawn from, of those jobs that are done and to be drawn.
@@ -122,6 +123,16 @@ class Archive:
     def write(self, name: str, text: str) -> None:
         """Write a file of the whole comparison."""
         replace_file(self.path / name, text)
+
+    def _document(self, job: Job, name: str) -> dict[str, Any]:
+        path = self.folder(job) / name
+        try:
+            document: dict[str, Any] = json.loads(path.read_text("utf-8"))
+        except (OSError, ValueError) as error:
+            raise InputError(
+                f"{str(path)!r} can't be read ({error}); remove its folder to run it again"
+            ) from error
+        return document
 
     def _part(self, job: Job) -> Path:
         folder = self.folder(job)

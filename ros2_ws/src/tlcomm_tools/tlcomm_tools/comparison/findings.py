@@ -31,11 +31,13 @@ class Row:
     Attributes:
         job: what was run.
         result: its result document; ``None`` if there is no run.
+        audit: the audit's document; ``None`` if there is no run.
         error: why there is none; ``None`` if there is one.
     """
 
     job: Job
     result: Mapping[str, Any] | None
+    audit: Mapping[str, Any] | None
     error: str | None
 
     @property
@@ -47,11 +49,15 @@ class Row:
 
     @property
     def flaws(self) -> list[str]:
-        """What failed: the reason why there is no run, or what its verdict says."""
+        """What failed: the reason why there is no run, or what its verdict and its audit say."""
         if self.result is None:
             return [str(self.error)]
-        verdict = self.result["verdict"]
-        return [] if verdict == "ok" else list(verdict)
+        return [*_failures(self.result), *(f"audit: {line}" for line in _failures(self.audit))]
+
+
+def _failures(judged: Mapping[str, Any] | None) -> list[str]:
+    verdict = "ok" if judged is None else judged["verdict"]
+    return [] if verdict == "ok" else list(verdict)
 
 
 def document(design: Design, rows: Sequence[Row]) -> dict[str, Any]:
@@ -95,6 +101,7 @@ def table_rows(found: Mapping[str, Any]) -> list[dict[str, Any]]:
             "folder": run["folder"],
             "error": run["error"],
             "verdict": "; ".join(run["verdict"]) or None,
+            "audit": "; ".join(run["audit"]) or None,
             **run["measures"],
         }
         for run in found["runs"]
@@ -119,7 +126,8 @@ def _run(row: Row) -> dict[str, Any]:
         "seed": job.seed,
         "folder": job.folder,
         "error": row.error,
-        "verdict": [] if row.result is None else row.flaws or ["ok"],
+        "verdict": [] if row.result is None else _failures(row.result) or ["ok"],
+        "audit": [] if row.audit is None else _failures(row.audit) or ["ok"],
         "measures": row.figures,
     }
 

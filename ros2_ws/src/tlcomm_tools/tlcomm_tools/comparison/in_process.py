@@ -14,7 +14,8 @@ from tlcomm_core.scenario.loader import loads
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate
 from tlcomm_core.units import seconds
-from tlcomm_tools.comparison.job import TRACE, Failed, Finished, Job, Outcome
+from tlcomm_tools.audit.findings import audit_run
+from tlcomm_tools.comparison.job import AUDIT, TRACE, Failed, Finished, Job, Outcome
 from tlcomm_tools.comparison.tracing import trace_text
 from tlcomm_tools.folder import dumps_json
 
@@ -50,7 +51,12 @@ def _simulated(job: Job) -> Finished:
         wall_s=time.perf_counter() - begun_s,
     )
     result = result_document(scenario, left.records, facts)
-    files = {"scenario.yaml": job.scenario, "result.json": dumps_json(result)}
+    audit = audit_run(scenario, job.method, left.records, left.sim_ns)
+    files = {
+        "scenario.yaml": job.scenario,
+        "result.json": dumps_json(result),
+        AUDIT: dumps_json(audit.document()),
+    }
     if job.is_drawn:
         files[TRACE] = trace_text(job, scenario, left.records, result)
     return Finished(files)

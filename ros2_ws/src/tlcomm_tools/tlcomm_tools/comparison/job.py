@@ -4,6 +4,7 @@
 ``Finished``  the files of a run
 ``Failed``    why there is no run
 ``TRACE``     name of the file that figures are drawn from
+``AUDIT``     name of the file that says what the independent audit found
 """
 
 from collections.abc import Mapping
@@ -12,9 +13,10 @@ from typing import Final
 
 from tlcomm_core.method import Method
 
-__all__ = ["TRACE", "Failed", "Finished", "Job", "Outcome"]
+__all__ = ["AUDIT", "TRACE", "Failed", "Finished", "Job", "Outcome"]
 
 TRACE: Final = "trace.json"
+AUDIT: Final = "audit.json"
 
 
 @dataclass(frozen=True, slots=True)

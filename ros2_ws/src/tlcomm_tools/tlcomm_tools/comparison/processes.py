@@ -10,11 +10,12 @@ from tlcomm_core.errors import TlcommError
 from tlcomm_core.game.solver import SOLVERS
 from tlcomm_core.pace import Pace
 from tlcomm_core.scenario.loader import loads
+from tlcomm_tools.audit.findings import audit_run
 from tlcomm_tools.bag.reader import read_run
 from tlcomm_tools.comparison.archive import Archive
-from tlcomm_tools.comparison.job import TRACE, Failed, Job
+from tlcomm_tools.comparison.job import AUDIT, TRACE, Failed, Job
 from tlcomm_tools.comparison.tracing import trace_text
-from tlcomm_tools.folder import replace_file
+from tlcomm_tools.folder import dumps_json, replace_file
 from tlcomm_tools.run import RunOptions, run_mission
 from tlcomm_tools.status import Status
 
@@ -54,7 +55,9 @@ def _run(job: Job, out: Path, on_wait: Callable[[], None]) -> Failed | None:
     if report.failure is not None:
         failure = report.failure
         return Failed(f"{failure.name}: {failure.reason} (logs: {report.folder.logs})")
+    recorded = read_run(report.folder.bag)
+    audit = audit_run(scenario, job.method, recorded.records, recorded.end_ns, recorded.damage)
+    replace_file(out / AUDIT, dumps_json(audit.document()))
     if job.is_drawn:
-        records = read_run(report.folder.bag).records
-        replace_file(out / TRACE, trace_text(job, scenario, records, report.result))
+        replace_file(out / TRACE, trace_text(job, scenario, recorded.records, report.result))
     return None

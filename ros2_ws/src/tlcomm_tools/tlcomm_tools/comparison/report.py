@@ -89,10 +89,17 @@ def _number(value: float, measure: Measure) -> str:
 
 
 def _flaws(found: Mapping[str, Any], bullet: str) -> Iterator[str]:
-    """Yield what failed, run by run."""
+    """Yield what failed, run by run, and how many runs the audit passes."""
+    passed, count = sum(run["audit"] == ["ok"] for run in found["runs"]), len(found["runs"])
+    yield (
+        f"{bullet.removesuffix('- ')}Audited independently: {passed} of {count} runs keep what"
+        " their methods promise."
+    )
     lines = []
     for run in found["runs"]:
-        flaws = [run["error"]] if run["error"] else [f for f in run["verdict"] if f != "ok"]
+        audited = [f"audit: {line}" for line in run["audit"] if line != "ok"]
+        said = [line for line in run["verdict"] if line != "ok"]
+        flaws = [run["error"]] if run["error"] else [*said, *audited]
         if flaws:
             more = f" (and {len(flaws) - 1} more)" if len(flaws) > 1 else ""
             lines.append(f"{bullet}{run['folder']}: {flaws[0]}{more}")

@@ -22,7 +22,7 @@ MAIN: Final = (
     "information_age_mean_s",
     "windows_kept",
     "deviation_mean",
-    "deviation_max",
+    "deviation_settled_max",
     "bytes",
 )
 

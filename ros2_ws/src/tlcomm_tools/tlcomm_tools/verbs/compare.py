@@ -108,7 +108,9 @@ def run(options: Namespace) -> Status:
         archive = Archive.open(scenario.name, options.out, design.terms())
         failed = run_missing(jobs, archive, workers, act)
     rows = [
-        Row(job, None, failed[job]) if job in failed else Row(job, archive.result(job), None)
+        Row(job, None, None, failed[job])
+        if job in failed
+        else Row(job, archive.result(job), archive.audit(job), None)
         for job in jobs
     ]
     found = document(design, rows)
