@@ -43,6 +43,22 @@ def wait_for_runs(process: subprocess.Popen[str], folder: Path, count: int) -> N
             process.wait(0.05)
 
 
+def wait_for_workers(process: subprocess.Popen[bytes]) -> list[int]:
+    """Return all that a comparison has started, once that is two workers at least."""
+    while sum(b"spawn_main" in command_line(pid) for pid in children(process.pid)) < 2:
+        with pytest.raises(subprocess.TimeoutExpired):
+            process.wait(0.05)
+    return children(process.pid)
+
+
+def command_line(pid: int) -> bytes:
+    """Return the command line of a process, nothing of one that has ended."""
+    try:
+        return Path(f"/proc/{pid}/cmdline").read_bytes()
+    except OSError:
+        return b""
+
+
 def ends(pid: int) -> bool:
     """Return whether a process has ended, or soon does."""
     try:
@@ -86,6 +102,22 @@ def test_the_same_command_goes_on_after_ctrl_c(tmp_path: Path) -> None:
     assert [run["error"] for run in found["runs"]] == [None] * 12
     assert before == {path: (path / "result.json").stat().st_mtime_ns for path in done}
     assert not list(out.glob(".*"))
+
+
+def test_runs_under_way_are_given_up(tmp_path: Path) -> None:
+    """However long they would still take."""
+    command = [*COMMAND[:6], "--methods", "none", "--seeds", "2", "--until", "1e7"]
+    with subprocess.Popen(
+        [*command, "--out", "out"], stderr=subprocess.DEVNULL, cwd=tmp_path
+    ) as process:
+        try:
+            workers = wait_for_workers(process)
+            process.send_signal(signal.SIGTERM)
+            assert process.wait(PATIENCE_S) == 130
+        finally:
+            process.kill()
+    assert all(map(ends, workers))
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["terms.json"]
 
 
 def test_workers_end_with_a_comparison_that_is_killed(tmp_path: Path) -> None:

@@ -19,6 +19,9 @@ from tlcomm_tools.comparison.perturbation import perturbed
 WINDOWS = 6.3
 SCENARIO = load_scenario(CORRIDOR)
 FAULTY = SCENARIO.model_copy(update={"faults": Faults(action_failure=0.2)})
+APART = SCENARIO.model_copy(
+    update={"communication": SCENARIO.communication.model_copy(update={"separation_m": 0.4})}
+)
 LOSSY = SCENARIO.model_copy(update={"radio": Radio(loss=0.2, jitter_s=0.02)})
 # What the run of one method happens to keep of what another promises.
 KEPT_AS_WELL = {
@@ -45,8 +48,8 @@ def plain_run(method: Method) -> Simulated:
 @pytest.mark.parametrize("method", list(Method))
 @pytest.mark.parametrize(
     "scenario",
-    [FAULTY, LOSSY, perturbed(SCENARIO, 1), perturbed(SCENARIO, 2)],
-    ids=["faulty", "lossy", "perturbed", "perturbed otherwise"],
+    [FAULTY, LOSSY, APART, perturbed(SCENARIO, 1), perturbed(SCENARIO, 2)],
+    ids=["faulty", "lossy", "apart", "perturbed", "perturbed otherwise"],
 )
 def test_each_method_keeps_its_promises(scenario: Scenario, method: Method) -> None:
     """Whatever fails, is lost or starts elsewhere."""

@@ -7,7 +7,8 @@ import networkx as nx
 import numpy as np
 import pytest
 
-from tlcomm_core.agent.actions import TaskEventKind
+from support.changing_hall import changing_hall
+from tlcomm_core.agent.actions import Fault, TaskEventKind
 from tlcomm_core.agent.pairs import pairs_of
 from tlcomm_core.method import Method
 from tlcomm_core.metrics.connection import pair_windows_of
@@ -84,6 +85,29 @@ def test_trouble_makes_nobody_miss_a_window(name: str) -> None:
     """Who is late or has lost time is waited for, or leaves steps out."""
     scenario = random_team(3).model_copy(update=TROUBLE[name])
     assert_kept(scenario, *run(scenario))
+
+
+@pytest.mark.parametrize("seed", [1, 8])
+def test_changing_maps_make_nobody_miss_a_window(seed: int) -> None:
+    """Wherever places close that somebody is to go to: all agree on where to meet after them."""
+    scenario = changing_hall(seed)
+    one = scenario.agents["one"]
+    x_m, y_m, yaw_rad = one.start
+    beside = one.model_copy(update={"start": (x_m, y_m + 0.5, yaw_rad)})
+    longer = scenario.communication.model_copy(update={"period_s": 45.0})
+    agents = scenario.agents | {"three": beside}
+    three = verify(scenario.model_copy(update={"agents": agents, "communication": longer}))
+    records, end_ns = run(three, 8)
+    assert failures(three, records, Method.PAIRWISE, (), end_ns) == []
+    faults = [own.event for own in records.tasks if own.event.kind is TaskEventKind.FAULT]
+    assert {event.detail.partition("=")[0] for event in faults} == {Fault.CUT_OFF}
+    kept = [
+        window.satisfied
+        for own in pair_windows_of(three, records, end_ns).values()
+        for window in own
+    ]
+    assert len(kept) >= 8
+    assert all(kept)
 
 
 def test_a_star_keeps_its_schedule() -> None:

@@ -42,6 +42,15 @@ def test_who_lags_behind_does_as_many_steps_between_as_agreed() -> None:
     assert [diary.take(), diary.take()] == [appointment(2, 2), appointment(3, 4)]
 
 
+def test_poses_follow_the_map() -> None:
+    """The prospect is where the agent will stand, not where it was to."""
+    diary = Diary(5.0)
+    diary.add(appointment(2, 4))
+    diary.stand(lambda own: Pose(2.0, own.own.y_m, 0.0))
+    assert diary.prospect(NOW).pose == Pose(2.0, 2.0, 0.0)
+    assert diary.take().own == appointment(2, 4).own
+
+
 def test_windows_come_in_order() -> None:
     """An appointment before another is a mistake of ours."""
     diary = Diary(5.0)

@@ -40,11 +40,13 @@ def test_an_agent_that_knows_nothing_has_nothing_to_do() -> None:
 
 
 def test_a_reading_is_the_estimate_at_once() -> None:
-    """It is reported once, with the measurement that it is."""
+    """It is reported once, with the measurement that it is, and again if it is measured again."""
     estimator = alone()
     estimator.read(5.0, 7)
     assert estimator.proceed(7) == (ReportEstimate(5.0, 5.0),)
     assert estimator.proceed(7) == ()
+    estimator.read(5.0, 8)
+    assert estimator.proceed(8) == (ReportEstimate(5.0, 5.0),)
     assert estimator.next_need_ns is None
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from support.hall import DURATION_S, PERIOD_S, LoneAgent
+from support.hall import DURATION_S, PERIOD_S, LoneAgent, hall
 from support.troop import Troop
 from tlcomm_core.agent.actions import CountIgnored, TaskEventKind
 from tlcomm_core.agent.events import MessageHeard, TimePassed
@@ -14,8 +14,13 @@ from tlcomm_core.agent.lone_brain import LoneBrain
 from tlcomm_core.agent.pairwise_brain import PairwiseBrain
 from tlcomm_core.agent.visit import partner_of
 from tlcomm_core.method import Method
+from tlcomm_core.metrics.connection import pair_windows_of
+from tlcomm_core.mission import Mission
 from tlcomm_core.protocol.messages import Confirmation, Message
 from tlcomm_core.protocol.team import OnInfeasible
+from tlcomm_core.scenario.site import Site
+from tlcomm_core.simulation import simulate
+from tlcomm_core.units import nanoseconds
 
 NAMES = ("one", "two", "three")
 Cut = Callable[[float, str, Message], bool]
@@ -147,6 +152,25 @@ def test_without_agreement_at_the_start_pairs_meet_there() -> None:
     assert {name: own[-3:] for name, own in rounds(troop, STARTED).items()} == {
         name: own[-3:] for name, own in WINDOWS.items()
     }
+
+
+def test_who_cant_plan_a_window_parts_and_meets_again_where_it_was() -> None:
+    """Nobody waits for longer than D_c for what can't be: others are to be met before that."""
+    scenario = hall(3).scenario
+    waiting = scenario.communication.model_copy(update={"on_infeasible": "wait"})
+    slow = scenario.model_copy(
+        update={"actions": {"pick": 100.0, "place": 2.0}, "communication": waiting}
+    )
+    end_s = 5 * PERIOD_S
+    mission = Mission(Site.from_scenario(slow), 0, None, end_s, method=Method.PAIRWISE)
+    records = simulate(mission).records
+    said = [own for own in records.tasks if own.event.detail.startswith("agreement=gathered")]
+    assert {own.stamp_ns for own in said if own.event.round == 0} == {nanoseconds(DURATION_S)}
+    outcomes = pair_windows_of(slow, records, nanoseconds(end_s)).values()
+    assert [[own.round for own in windows if own.satisfied] for windows in outcomes] == [
+        [1, 3],
+        [2, 4],
+    ]
 
 
 def test_another_task_begins_at_the_next_meeting() -> None:

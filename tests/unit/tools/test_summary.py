@@ -80,3 +80,13 @@ def test_tables_are_aligned() -> None:
     """The first columns are aligned to the left, the others to the right."""
     table = format_table(("a", "bb"), [("long", "1"), ("x", "200")], indent="")
     assert table.splitlines() == ["a      bb", "long    1", "x     200"]
+
+
+def test_who_met_is_told_where_not_all_do() -> None:
+    """As in meetings of pairs."""
+    result = result_document(hand_made_scenario(), hand_made_records(), FACTS)
+    first, second = result["rounds"]
+    result["rounds"] = [first, second | {"members": ["east", "north"]}]
+    text = format_summary(result, RunFolder(Path("runs/x")), has_bag=False)
+    assert "      1   10.0      7.0  6.0      1           6.0            3.5   east west\n" in text
+    assert "      2   20.0      7.0  6.0      1           6.0            3.5  east north\n" in text

@@ -54,6 +54,11 @@ class Method(StrEnum):
         return self not in (Method.PAIRWISE, Method.NONE)
 
     @property
+    def chooses_places(self) -> bool:
+        """Whether its meetings' places are chosen, so that demands on them can be met."""
+        return self in (Method.TEAM, Method.PAIRWISE, Method.ORACLE)
+
+    @property
     def has_meetings(self) -> bool:
         """Whether its strategies are meetings, each in a window, that agents go to and leave."""
         return self not in (Method.ALL_TIME, Method.NONE)

@@ -121,6 +121,8 @@ def _format_agents(agents: Mapping[str, Mapping[str, Any]]) -> str:
 
 def _format_rounds(rounds: Sequence[Mapping[str, Any]]) -> str:
     shown = rounds[-_SHOWN_ROUNDS:]
+    # Where not all meet in each round, it matters who did.
+    tells_who = len({tuple(own["members"]) for own in rounds}) > 1
     rows = []
     for own in shown:
         extra_s = [value for value in own["additional_time"].values() if value is not None]
@@ -133,9 +135,10 @@ def _format_rounds(rounds: Sequence[Mapping[str, Any]]) -> str:
                 str(own["iterations"]),
                 format_number(sum(extra_s) if extra_s else None),
                 format_number(max(extra_s, default=None)),
+                *([" ".join(own["members"])] if tells_who else []),
             )
         )
     header = ("round", "t_c/s", "Φ(S⁰)/s", "Φ/s", "moves", "additional/s", "worst agent/s")
-    table = format_table(header, rows, left=0)
+    table = format_table((*header, "who") if tells_who else header, rows, left=0)
     left_out = len(rounds) - len(shown)
     return f"  … {left_out} rounds before\n{table}" if left_out else table

@@ -103,8 +103,10 @@ def test_a_start_that_is_forbidden_from_the_first_is_refused() -> None:
 
 def test_in_line_of_sight_the_team_sees_each_other() -> None:
     """Where radios don't pass obstacles, connection is by those who see each other."""
-    scenario = PLANT.model_copy(update={"radio": Radio(line_of_sight=True)})
-    for seed in range(1, 10):
+    communication = CORRIDOR.communication.model_copy(update={"range_m": 2.0})
+    radio = Radio(line_of_sight=True)
+    scenario = CORRIDOR.model_copy(update={"communication": communication, "radio": radio})
+    for seed in range(1, 20):
         other = perturbed(scenario, seed)
         site, points_m = Site.from_scenario(other), starts_m(other)
         linked = [

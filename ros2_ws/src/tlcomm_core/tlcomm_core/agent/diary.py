@@ -9,6 +9,7 @@ an agent has several meetings ahead of it, and plans another from where the last
 """
 
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from tlcomm_core.game.strategy import Strategy
@@ -87,6 +88,10 @@ class Diary:
             return now
         last = self._ahead[-1]
         return Prospect(last.pose, last.own.task_index, last.meeting_s + self._duration_s)
+
+    def stand(self, pose_at: Callable[[Appointment], Pose]) -> None:
+        """Take it that the agent will stand in other poses at its meetings."""
+        self._ahead = deque(replace(own, pose=pose_at(own)) for own in self._ahead)
 
     def postpone(self, steps: int) -> None:
         """Keep all places and times, but attend each after so many steps of the plan less.

@@ -85,8 +85,9 @@ class Estimator:
         return ""
 
     def read(self, value: float, time_ns: int) -> None:
-        """Take a reading: what the agent measured, and when."""
+        """Take a reading: what the agent measured, and when; the estimate is reported anew."""
         self._measured = value
+        self._reported = None
         self._averaging.measure(value, time_ns)
         self._has_news = True
 

@@ -13,6 +13,8 @@ is no longer than the rest of what had fitted in, which leads there too.
 The agreed h counts the plan's steps, and others reckon with them. So another plan begins at the
 next meeting, with what the agent offers there.
 
+Who agrees on meetings far ahead (``keep_time``) lets time decide on each step that it is late for.
+
 When the map changes, ways may become longer: if what is left takes more time than before, time
 decides on each step as after a failure. A step that can't be reached any more ends what is done
 before the meeting; a place of meeting that can't is replaced by the nearest one that can.
@@ -273,7 +275,11 @@ class Itinerary:
 
     def is_cut_off(self, pose: Pose) -> bool:
         """Return whether the agreed place of meeting can't be reached."""
-        return not self._ways.lead(pose, self._place(self._agreed()))
+        return not self.reaches(pose, self._agreed())
+
+    def reaches(self, pose: Pose, meeting: Strategy) -> bool:
+        """Return whether a way leads from a pose to the place of a meeting."""
+        return self._ways.lead(pose, self._place(meeting))
 
     def calls_away(self, pose: Pose) -> bool:
         """Return whether the agreed place of meeting is elsewhere, and can be reached."""

@@ -144,12 +144,21 @@ class PairwiseBrain:
         """
         self._map_ns = change.map_ns
         self._journey.see_map(change, now_s)
+        self._diary.stand(self._pose_at)
         if self._visit is None or self._heading is None:
             return []
         if not self._visit.is_alone or not self._itinerary.calls_away(self._journey.pose):
             return []
         self._visit = None
         return self._journey.set_out(now_s, self._heading.window)
+
+    def _pose_at(self, appointment: Appointment) -> Pose:
+        """Return the pose at a meeting: as near its place as the map lets the agent come."""
+        own, here = appointment.own, self._journey.pose
+        is_there = appointment.pose.distance_m(own.x_m, own.y_m) == 0.0
+        if is_there == self._itinerary.reaches(here, own):
+            return appointment.pose
+        return self._itinerary.leg(here, own).arrival
 
     def _proceed(self, now_s: float) -> list[Action]:
         """Do whatever is due; a visit may end and a journey begin at one instant."""
@@ -221,8 +230,7 @@ class PairwiseBrain:
                 # All meetings at the start begin as one.
                 if news is not News.STARTED or encounter is visit.encounters[0]:
                     actions.append(self._journey.report_meeting(meeting.tell(news)))
-            ending = None if encounter.is_over else meeting.ending(now_s)
-            if ending is not None:
+            if (ending := encounter.ending(now_s)) is not None:
                 actions += self._end(encounter, ending, now_s)
             if encounter.is_booked and encounter is visit.latest:
                 self._meet_next(visit)

@@ -17,6 +17,7 @@ from tlcomm_core.game.offer import PlannedStop
 from tlcomm_core.geometry import Pose
 from tlcomm_core.protocol.team import OnInfeasible, Team
 from tlcomm_core.protocol.whereabouts import Ending, Place, Whereabouts
+from tlcomm_core.units import is_due
 
 __all__ = ["Encounter", "Partner", "Visit", "partner_of"]
 
@@ -107,6 +108,19 @@ class Encounter:
         """When it must go on, whatever is heard until then."""
         meeting = self.meeting
         return meeting.negotiation.next_need_s if self.is_over else meeting.next_need_s
+
+    def ending(self, now_s: float) -> Ending | None:
+        """Return how the meeting has ended for the agent, if it has just now.
+
+        Two who see that they can't plan their next window part after D_c: they have others to meet
+        before it.
+        """
+        if self.is_over:
+            return None
+        is_met = is_due(self.meeting.over_s, now_s)
+        if is_met and self.meeting.negotiation.obstacle is not None:
+            return Ending.GATHERED
+        return self.meeting.ending(now_s)
 
     def pose_after(self, task_index: int) -> Pose:
         """Return in which pose the agent finishes a step that it has offered."""

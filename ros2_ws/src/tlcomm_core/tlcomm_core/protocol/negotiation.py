@@ -123,7 +123,7 @@ class Negotiation:
         """Prepare to plan a round.
 
         Args:
-            own: this agent's offer, made at the meeting of ``round_`` − 1.
+            own: this agent's offer, made at the meeting before.
             round_: the round to plan, r ≥ 1.
             team: the team.
             rounds: poses round problems.

@@ -33,6 +33,8 @@ windows w + 1, w + 3, …, and the claim holds with those and q ≡ w + 1.
 A strategy for window w + 2, where the team skips one, changes nothing in this: who has AGREED waits
 at the new place from w + 2 on, who is DOUBTFUL tries it in w + 1, w + 3, …
 
+A pair that meets in some windows only counts these one by one, and all of this holds for it.
+
 An agent whose meeting ended without agreement leaves it D_c after the end of the window, at the
 latest. So for the team to be together for D_c in that window, the way between two places must not
 take longer than T_c − D_c.

@@ -106,7 +106,7 @@ def audit_run(
         *(line for own in tasks for line in own.violations),
         *(line for agent in evidence.agents for line in _breaches(evidence, agent)),
         *strategies.violations,
-        *audit_meetings(scenario, records.strategies),
+        *(audit_meetings(scenario, records.strategies) if method.chooses_places else ()),
     ]
     return Audit(
         scenario=scenario.name,

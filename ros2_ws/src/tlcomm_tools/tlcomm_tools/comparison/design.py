@@ -18,6 +18,10 @@ from tlcomm_tools.comparison.sweep import Sweep, shown
 
 __all__ = ["Design", "jobs_of"]
 
+# Less than the margin that meetings keep from their windows' ends, unless a scenario has a smaller
+# one, and far above the rounding of times.
+_SPARE_S: Final = 0.0005
+
 # What a run takes, in runs of `none`.
 _EFFORT: Final = {
     Method.NONE: 1.0,
@@ -54,15 +58,16 @@ class Design:
     with_processes: bool
 
     def end_s(self, scenario: Scenario) -> float:
-        """Return when all runs of a scenario end: D_c after the last window has closed.
+        """Return when all runs of a scenario end: when D_c after the last window is nearly over.
 
-        By then every meeting that began in it is over, whatever the method.
+        By then every meeting that began in it in time is over, whatever the method, and nobody has
+        kept the next window yet: all are judged by equally many.
         """
         if self.until_s is not None:
             return self.until_s
         assert self.rounds is not None
         timing = scenario.communication
-        return (self.rounds + 1) * timing.period_s + timing.duration_s
+        return (self.rounds + 1) * timing.period_s + timing.duration_s - _SPARE_S
 
     def methods_of(self, scenario: Scenario) -> tuple[Method, ...]:
         """Return the methods that a scenario's team is compared by.
@@ -112,23 +117,27 @@ def jobs_of(design: Design) -> list[Job]:
             for a method.
         PlanningError: an agent starts where its task forbids it to be.
     """
-    return [
-        _job(design, value, scenario, method, seed)
-        for value, scenario in design.points()
-        for method in design.methods_of(scenario)
-        for seed in range(design.seeds)
-    ]
+    jobs: list[Job] = []
+    for value, scenario in design.points():
+        texts = [dumps(perturbed(scenario, seed)) for seed in range(design.seeds)]
+        jobs += [
+            _job(design, value, scenario, method, seed, text)
+            for method in design.methods_of(scenario)
+            for seed, text in enumerate(texts)
+        ]
+    return jobs
 
 
-def _job(design: Design, value: float | None, scenario: Scenario, method: Method, seed: int) -> Job:
+def _job(
+    design: Design, value: float | None, scenario: Scenario, method: Method, seed: int, text: str
+) -> Job:
     above = ""
     if design.sweep is not None and value is not None:
         above = f"{design.sweep.name}-{shown(value)}/"
     until_s = design.end_s(scenario)
     return Job(
         folder=f"{above}{method}-{seed}",
-        # The same for all methods: it follows from the seed.
-        scenario=dumps(perturbed(scenario, seed)),
+        scenario=text,
         method=method,
         solver=design.solver.name,
         seed=seed,

@@ -15,6 +15,7 @@ from tlcomm_core.agent.planner import check_tasks
 from tlcomm_core.errors import InputError
 from tlcomm_core.method import Method
 from tlcomm_core.scenario.loader import load_scenario
+from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_tools.comparison.archive import Archive
 from tlcomm_tools.comparison.cluster import remote_workers
@@ -101,19 +102,7 @@ def run(options: Namespace) -> Status:
     scenario = load_scenario(options.scenario)
     # An agent without a plan would let all runs fail.
     check_tasks(Site.from_scenario(scenario))
-    rounds = options.rounds
-    if rounds is None and options.until is None:
-        rounds = _ROUNDS_OF_PROCESSES if options.processes else _ROUNDS
-    design = Design(
-        scenario=scenario,
-        methods=options.methods,
-        seeds=options.seeds,
-        rounds=rounds,
-        until_s=options.until,
-        solver=options.solver,
-        sweep=options.sweep,
-        with_processes=options.processes,
-    )
+    design = _design(scenario, options)
     jobs = jobs_of(design)
     with held_interruption() as act, _workers(options) as workers:
         archive = Archive.open(scenario.name, options.out, design.terms())
@@ -126,13 +115,29 @@ def run(options: Namespace) -> Status:
     archive.write("comparison.json", dumps_json(found))
     archive.write("comparison.csv", csv_text(found))
     archive.write("comparison.md", markdown(found))
-    done = [row.job for row in rows if row.result is not None]
-    _draw(found, archive, done)
+    _draw(found, archive, [row.job for row in rows if row.result is not None])
     if options.json:
         print_json({**found, "folder": str(archive.path)})
     else:
         print(f"{format_findings(found)}\n\nfiles   {archive.path}")
     return Status.PROPERTY_FAILED if any(row.flaws for row in rows) else Status.FINE
+
+
+def _design(scenario: Scenario, options: Namespace) -> Design:
+    """Return what is compared, for how long unless told otherwise."""
+    rounds = options.rounds
+    if rounds is None and options.until is None:
+        rounds = _ROUNDS_OF_PROCESSES if options.processes else _ROUNDS
+    return Design(
+        scenario=scenario,
+        methods=options.methods,
+        seeds=options.seeds,
+        rounds=rounds,
+        until_s=options.until,
+        solver=options.solver,
+        sweep=options.sweep,
+        with_processes=options.processes,
+    )
 
 
 @contextmanager
