@@ -70,8 +70,8 @@ def _parser() -> argparse.ArgumentParser:
     for role in (agent, sim, recorder):
         role.add_argument("--scenario", required=True)
         role.add_argument("--seed", type=int, default=0)
-    for role in (agent, sim):
         role.add_argument("--pace", required=True)
+    for role in (agent, sim):
         role.add_argument("--recorder", action="store_true", help="wait for a recorder")
     for role in (agent, recorder):
         role.add_argument("--solver", required=True)
@@ -131,6 +131,7 @@ def _be_recorder(arguments: argparse.Namespace, notifier: Notifier) -> int:
         "method": arguments.method,
         "solver": arguments.solver,
         "seed": str(arguments.seed),
+        "pace": arguments.pace,
     }
     measures = scenario.field is not None
     settings = recorder.RecorderSettings(arguments.bag, tuple(scenario.agents), measures, notes)
