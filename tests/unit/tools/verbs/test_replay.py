@@ -62,3 +62,17 @@ def test_what_cant_be_verified_is_refused(
     shown = capsys.readouterr().err
     assert shown.startswith(f"tlcomm: error: {str(tmp_path)!r}: the run was at pace 1.0")
     assert shown.count("\n") == 1
+
+
+def test_a_cut_bag_is_verified_as_far_as_it_goes(
+    recording: Recording, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """With a note of why that isn't all."""
+    write_recording(tmp_path / "bag", recording, measures=False)
+    (path,) = (tmp_path / "bag").glob("*.mcap")
+    data = path.read_bytes()
+    end = data.index(b"\x0f\x04\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00")
+    path.write_bytes(data[:end])
+    assert main(["replay", "--verify", str(tmp_path)]) == Status.FINE
+    shown = capsys.readouterr().out
+    assert shown.endswith("note: the bag was read only in part: the file has no end\nverdict: ok\n")

@@ -111,13 +111,15 @@ def test_a_missing_event_is_named(recording: Recording) -> None:
     assert (found.recorded, found.came_out) == ("nothing", str(task.event))
 
 
-def test_an_invented_event_is_named(recording: Recording) -> None:
+@pytest.mark.parametrize("time_ns", [1_234_567_891, 10**12])
+def test_an_invented_event_is_named(recording: Recording, time_ns: int) -> None:
     """What was recorded and doesn't come out is a difference, also when the agent doesn't act."""
     event = TaskEvent(TaskEventKind.FAULT, "", "", 1, 0, "made up")
-    recording.run.records.tasks.insert(0, TaskRecord(1_234_567_891, "two", event))
+    recording.run.records.tasks.append(TaskRecord(min(time_ns, recording.end_ns + 1), "two", event))
+    recording.run.records.tasks.sort(key=lambda own: own.stamp_ns)
     found = verify(recording).difference
     assert found is not None
-    assert (found.agent, found.time_ns, found.came_out) == ("two", 1_234_567_891, "nothing")
+    assert (found.agent, found.came_out) == ("two", "nothing")
     assert found.document()["recorded"] == str(event)
 
 
@@ -152,3 +154,15 @@ def test_a_record_may_end_within_an_instant(recording: Recording) -> None:
     last = tasks.pop()
     assert recording.end_ns == last.stamp_ns
     assert verify(recording).difference is None
+
+
+def test_a_difference_at_the_end_is_told_with_a_reserve(recording: Recording) -> None:
+    """Of the last second a killed recorder may have lost some; of earlier ones it hasn't."""
+    commanded = recording.commanded
+    for index, is_late in ((-1, True), (4, False)):
+        kept, commanded[index] = commanded[index], replace(commanded[index], drive=Drive(9.0, 9.0))
+        found = verify(recording)
+        assert found.difference is not None
+        shown = found.difference.time_ns, "last second" in found.note
+        assert shown == (kept.stamp_ns, is_late)
+        commanded[index] = kept

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.typesys import Stores, get_typestore
 
 from support.measuring_corridor import measuring_corridor
 from support.recorded_bag import write_recording
@@ -49,3 +51,17 @@ def test_a_number_that_is_none_is_refused(tmp_path: Path, recording: Recording) 
     write_recording(tmp_path / "bag", recording, measures=False)
     with pytest.raises(InputError, match="change: nan isn't finite"):
         read_recording(tmp_path)
+
+
+def test_a_message_of_another_kind_is_refused(tmp_path: Path, recording: Recording) -> None:
+    """What the file itself defines otherwise than we do is named by its topic."""
+    bag, kind = tmp_path / "bag", "std_msgs/msg/String"
+    write_recording(bag, recording, measures=False)
+    store = get_typestore(Stores.ROS2_JAZZY)
+    with Writer(tmp_path / "other", version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+        connection = writer.add_connection("/map", kind, typestore=store)
+        writer.write(connection, 1, store.serialize_cdr(store.types[kind](data="here"), kind))
+    (tmp_path / "other" / "other.mcap").rename(bag / "other.mcap")
+    (bag / "metadata.yaml").unlink()
+    with pytest.raises(InputError, match="a message on '/map' can't be used: "):
+        read_recording(bag)

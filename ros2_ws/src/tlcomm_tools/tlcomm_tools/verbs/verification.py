@@ -47,7 +47,7 @@ def _format(verification: Verification) -> str:
         "",
     ]
     if verification.note:
-        parts.append(f"note: the bag was read only in part: {verification.note}")
+        parts.append(f"note: {verification.note}")
     if verification.difference is None:
         return "\n".join([*parts, "verdict: ok"])
     return "\n".join([*parts, "verdict: FAILED", f"  - {verification.difference}"])

@@ -11,7 +11,7 @@ from typing import Any, Final
 
 from tlcomm_core.agent.controller import Pacing
 from tlcomm_core.agent.member import create
-from tlcomm_core.units import seconds
+from tlcomm_core.units import NANOSECONDS_PER_SECOND, seconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_tools.verification.comparison import Comparison, Difference
 from tlcomm_tools.verification.inputs import inputs_of
@@ -50,7 +50,7 @@ class Verification:
         sim_s: simulated time that was recorded.
         agents: all, in the scenario's order; up to the first difference.
         difference: the first one, if any.
-        note: why the bag was read in part only, or "".
+        note: what a reader should know beside, or "".
     """
 
     scenario: str
@@ -107,8 +107,15 @@ def verify(recording: Recording) -> Verification:
         sim_s=seconds(recording.end_ns),
         agents=tuple(rehearsed),
         difference=first,
-        note=recording.run.damage,
+        note="; ".join(_notes(recording, first)),
     )
+
+
+def _notes(recording: Recording, first: Difference | None) -> Iterator[str]:
+    if recording.run.damage:
+        yield f"the bag was read only in part: {recording.run.damage}"
+    if first is not None and recording.end_ns - first.time_ns < NANOSECONDS_PER_SECOND:
+        yield "this is in the record's last second, which a killed recorder leaves incomplete"
 
 
 def _rehearsal(

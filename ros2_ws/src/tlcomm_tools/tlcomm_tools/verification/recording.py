@@ -11,12 +11,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from operator import attrgetter
 from pathlib import Path
-from typing import Protocol
+from typing import Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tlcomm_core.agent.actions import Drive
+from tlcomm_core.errors import InputError
 from tlcomm_core.protocol.messages import TeamMessage
 from tlcomm_core.world.observation import Reading
 from tlcomm_tools.bag.container import Channel
@@ -34,7 +35,7 @@ class _Stamped(Protocol):
     def stamp_ns(self) -> int: ...
 
 
-_TOPICS = ("cmd_vel", "map", "reading", *TEAM_TOPICS)
+_TOPICS: Final = ("cmd_vel", "map", "reading", *TEAM_TOPICS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +110,12 @@ def read_recording(path: Path) -> Recording:
     run, bag = read_run(path), read_messages(path, _is_wanted)
     recording = Recording(run, topics=bag.topics)
     for message in bag.messages:
-        _take(recording, message)
+        try:
+            _take(recording, message)
+        except (AttributeError, TypeError, ValueError) as error:
+            # The file's own definition of a type may be another than ours.
+            topic = f"/{message.agent}/{message.topic}".replace("//", "/")
+            raise InputError(f"a message on {topic!r} can't be used: {error}") from error
     for entries in (recording.said, recording.commanded, recording.maps, recording.readings):
         entries.sort(key=attrgetter("stamp_ns"))
     return recording
