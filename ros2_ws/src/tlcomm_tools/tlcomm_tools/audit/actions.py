@@ -45,16 +45,15 @@ def audit_actions(
 
 def _misplaced(scenario: Scenario, events: Sequence[TaskRecord], track: Track) -> Iterator[str]:
     """Say which actions and visits were not in the regions that they claim."""
-    for record in events:
-        event = record.event
-        if event.kind not in _PLACED or not event.region:
-            continue
-        time_s = record.stamp_ns * 1e-9
+    placed = [own for own in events if own.event.kind in _PLACED and own.event.region]
+    places_m = track.at(np.array([own.stamp_ns for own in placed]) * 1e-9).tolist()
+    for record, place_m in zip(placed, places_m, strict=True):
+        event, time_s = record.event, record.stamp_ns * 1e-9
         region = scenario.workspace.regions.get(event.region)
         if region is None:
             yield f"{track.agent}: {time_s:.3f} s: no region {event.region!r}"
             continue
-        away_m = _furthest_m(track, region, time_s, time_s)
+        away_m = math.dist(region.at_m, place_m)
         if away_m > _most_m(scenario, track, region):
             yield (
                 f"{track.agent}: {time_s:.3f} s: {event.action or 'visit'!r} done {away_m:.3f} m "
@@ -70,12 +69,11 @@ def _left(scenario: Scenario, events: Sequence[TaskRecord], track: Track) -> Ite
             continue
         start_s, end_s = start.stamp_ns * 1e-9, end.stamp_ns * 1e-9
         most_m = _most_m(scenario, track, region)
-        ends_m = max(_furthest_m(track, region, time_s, time_s) for time_s in (start_s, end_s))
-        away_m = _furthest_m(track, region, start_s, end_s)
-        if away_m > most_m >= ends_m:
+        away_m = _distances_m(track, region, start_s, end_s)
+        if max(away_m) > most_m >= max(away_m[0], away_m[-1]):
             yield (
                 f"{track.agent}: {start_s:.3f} s: leaves {start.event.region!r} during "
-                f"{start.event.action!r}, and is {away_m:.3f} m away until {end_s:.3f} s"
+                f"{start.event.action!r}, and is {max(away_m):.3f} m away until {end_s:.3f} s"
             )
 
 
@@ -118,8 +116,8 @@ def _most_m(scenario: Scenario, track: Track, region: Region) -> float:
     return region.radius_m + tolerance_m + _PLACE_SLACK_M
 
 
-def _furthest_m(track: Track, region: Region, from_s: float, to_s: float) -> float:
-    """Return how far an agent was from a region's middle at most: at its samples, or the ends."""
+def _distances_m(track: Track, region: Region, from_s: float, to_s: float) -> list[float]:
+    """Return how far an agent was from a region's middle: at the ends and its samples between."""
     first, last = np.searchsorted(track.times_s, (from_s, to_s), side="right")
     times_s = np.array([from_s, *track.times_s[first:last], to_s])
-    return max(math.dist(region.at_m, place_m) for place_m in track.at(times_s).tolist())
+    return [math.dist(region.at_m, place_m) for place_m in track.at(times_s).tolist()]
