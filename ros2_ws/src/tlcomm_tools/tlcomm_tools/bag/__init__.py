@@ -3,7 +3,9 @@
 ``topics``       what a run records
 ``definitions``  the message definitions that go inside
 ``records``      the encoding of MCAP records
+``parsing``      their decoding
 ``writer``       crash-safe writing
 ``container``    reading, damaged files included
+``repair``       finishing a bag that was left unfinished
 ``reader``       a bag as ``RunRecords``
 """
