@@ -73,6 +73,14 @@ def test_every_cut_is_repaired(tmp_path: Path, whole: bytes) -> None:
     assert sorted(own.name for own in tmp_path.glob(".*")) == []
 
 
+def test_a_whole_file_stays_the_same(tmp_path: Path, whole: bytes) -> None:
+    """Indexes and summary are the writer's to the byte."""
+    path = tmp_path / "a.mcap"
+    path.write_bytes(whole)
+    repair(path, tmp_path / "bag")
+    assert (tmp_path / "bag" / "bag_0.mcap").read_bytes() == whole
+
+
 def test_notes_and_qualities_are_kept(tmp_path: Path, whole: bytes) -> None:
     """What the bag says of its run and of its topics is in the new one as well."""
     path = tmp_path / "cut.mcap"

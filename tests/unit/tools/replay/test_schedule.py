@@ -44,6 +44,16 @@ def test_a_pause_takes_no_time_of_the_bag() -> None:
     assert schedule.take_due(60.5, MANY) == range(2, 3)
 
 
+def test_a_pause_holds_what_is_late() -> None:
+    """What was due already, but not taken, waits as well."""
+    schedule = Schedule(TIMES_NS, 1.0, 0.0)
+    schedule.take_due(50.0, 1)
+    schedule.toggle_pause(50.0)
+    assert list(schedule.take_due(50.0, MANY)) == []
+    schedule.toggle_pause(50.0)
+    assert schedule.take_due(50.0, MANY) == range(1, 4)
+
+
 def test_a_step_is_an_instant() -> None:
     """A step pauses and takes all of the next instant; going on, time continues from there."""
     schedule = Schedule(TIMES_NS, 1.0, 0.0)
