@@ -2,6 +2,7 @@
 
 import json
 import os
+import select
 import signal
 import struct
 import subprocess
@@ -20,6 +21,7 @@ from support.hand_made_run import (
     AGENTS,
     END_S,
     SHARE,
+    _Messages,
     hand_made_records,
     hand_made_scenario,
     serialize_run,
@@ -227,3 +229,72 @@ def test_other_types_are_skipped(domain: int, context: Context, tmp_path: Path) 
         "tlcomm: skipped '/tick': its type 'tlcomm_msgs/msg/Tick' is installed in another version",
     ]
     assert out.startswith("replayed 1 messages on 1 topics")
+
+
+HEARER = """
+import rclpy
+from rclpy.qos import QoSHistoryPolicy, QoSProfile
+from tlcomm_msgs.msg import Confirmation
+rclpy.init()
+node, heard = rclpy.create_node("hearer"), []
+quality = QoSProfile(history=QoSHistoryPolicy.KEEP_ALL)
+subscription = node.create_subscription(Confirmation, "/east/confirmation", heard.append, quality)
+while not heard:
+    rclpy.spin_once(node)
+print("one", flush=True)
+while subscription.get_publisher_count():
+    rclpy.spin_once(node, timeout_sec=0.1)
+count = -1
+while count < len(heard):
+    count = len(heard)
+    rclpy.spin_once(node, timeout_sec=1.0)
+print(count, flush=True)
+"""
+# Half as many again as the publisher keeps, and more than a stopped process's socket holds.
+BURST = 1500
+NAME = "x" * 20_000
+
+
+def write_burst(folder: Path) -> None:
+    """Write a bag with one large message, and a second later many at once."""
+    make = _Messages(load_typestore(SHARE))
+    data = make._bytes(
+        "tlcomm_msgs/msg/Confirmation",
+        header=make._header(0),
+        sender=NAME,
+        round=1,
+        iteration=1,
+        digest=7,
+        confirmed=[],
+    )
+    with open_writer(folder) as writer:
+        for number in range(BURST + 1):
+            log_ns = NANOSECONDS_PER_SECOND if number else 0
+            writer.write(NUMBERS["/east/confirmation"], log_ns, data)
+
+
+def test_whoever_stands_still_is_waited_for(domain: int, tmp_path: Path) -> None:
+    """A subscriber that is stopped for a while misses nothing."""
+    write_burst(tmp_path / "bag")
+    typist, terminal = os.openpty()
+    hearer = subprocess.Popen(
+        [sys.executable, "-c", HEARER],
+        env={**os.environ, "ROS_DOMAIN_ID": str(domain)},
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    with hearer, start(domain, tmp_path / "bag", "--rate", "1e-6", stdin=terminal) as process:
+        assert hearer.stdout is not None
+        assert process.stderr is not None
+        assert hearer.stdout.readline() == "one\n"
+        hearer.send_signal(signal.SIGSTOP)
+        os.write(typist, b".q")
+        # A replay that runs ahead says within this time that it has made its step.
+        hints = b""
+        while select.select([process.stderr], [], [], 5.0)[0] and b"paused" not in hints:
+            hints += os.read(process.stderr.fileno(), 4096)
+        hearer.send_signal(signal.SIGCONT)
+        process.communicate(timeout=60)
+        assert hearer.stdout.readline() == f"{1 + BURST}\n"
+    os.close(typist)
+    os.close(terminal)
