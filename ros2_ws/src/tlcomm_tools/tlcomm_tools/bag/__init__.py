@@ -5,5 +5,7 @@
 ``records``      the encoding of MCAP records
 ``writer``       crash-safe writing
 ``container``    reading, damaged files included
+``typestore``    decoding by the definitions that a file brings along
+``messages``     any of a bag's messages, decoded
 ``reader``       a bag as ``RunRecords``
 """

@@ -2,6 +2,7 @@
 
 ``Topic``            a recorded topic
 ``recorded_topics``  all of them, for a team
+``split_topic``      whose a topic is
 ``TEAM_TOPICS``      the topics that agents talk on
 ``FIELD_TOPICS``     those that are there only if something is measured
 """
@@ -9,7 +10,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-__all__ = ["AGENT_TOPICS", "FIELD_TOPICS", "TEAM_TOPICS", "Topic", "recorded_topics"]
+__all__ = ["AGENT_TOPICS", "FIELD_TOPICS", "TEAM_TOPICS", "Topic", "recorded_topics", "split_topic"]
 
 AGENT_TOPICS = {
     "odom": "nav_msgs/msg/Odometry",
@@ -65,3 +66,9 @@ def recorded_topics(agents: Iterable[str], *, measures: bool = False) -> tuple[T
             for suffix, type_name in suffixes.items()
         ),
     )
+
+
+def split_topic(name: str) -> tuple[str, str]:
+    """Return the agent whose topic it is, or "", and the topic's own name."""
+    agent, _, suffix = name.removeprefix("/").rpartition("/")
+    return agent, suffix
