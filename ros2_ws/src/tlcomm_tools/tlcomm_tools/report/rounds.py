@@ -5,12 +5,16 @@
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from typing import Any, Final
 
+from tlcomm_core.method import Method
 from tlcomm_core.metrics.meeting import Meeting, meetings
+from tlcomm_core.protocol.messages import BestResponse
 from tlcomm_core.records import RunRecords, StrategyRecord
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import seconds
+from tlcomm_tools.report.moves import Course, courses
 
 __all__ = ["round_documents"]
 
@@ -20,21 +24,36 @@ _DIGITS: Final = 3
 _Key = tuple[int, tuple[str, ...]]
 
 
-def round_documents(scenario: Scenario, records: RunRecords, end_s: float) -> list[dict[str, Any]]:
+def round_documents(
+    scenario: Scenario,
+    method: Method,
+    records: RunRecords,
+    end_s: float,
+    said: Iterable[BestResponse] = (),
+) -> list[dict[str, Any]]:
     """Return every agreement, by round and members: why it was made, and what it cost.
 
-    Of methods without meetings, it is the turns that are agreed on; nobody waits in them.
+    Of methods without meetings, it is turns that are agreed on: of these there is only the plan.
 
     Args:
         scenario: what was run.
+        method: of coordination.
         records: what happened.
         end_s: when the run ended.
+        said: what agents told of their best responses.
     """
     agreed_s = _agreed_s(records.strategies)
+    course_of = courses(said)
     period_s = scenario.communication.period_s
+    agreed = meetings(scenario, records)
+    if not method.has_meetings:
+        agreed = tuple(replace(own, arrivals_s={}) for own in agreed)
     return [
-        _round(own, period_s, agreed_s[own.round, own.members], end_s)
-        for own in meetings(scenario, records)
+        {
+            **_round(own, period_s, agreed_s[own.round, own.members], end_s),
+            "moves": course_of.get(own.round, Course()).moves_to(own.strategy),
+        }
+        for own in agreed
     ]
 
 
@@ -62,7 +81,7 @@ def _round(
         "initial_potential_s": _rounded(strategy.initial_potential_s),
         "potential_s": _rounded(strategy.potential_s),
         "bound_s": None if strategy.bound_s is None else _rounded(strategy.bound_s),
-        "moves": strategy.iteration,
+        "move_count": strategy.iteration,
         "members": [_member(meeting, name) for name in meeting.members],
     }
 

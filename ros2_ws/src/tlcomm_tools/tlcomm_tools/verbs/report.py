@@ -9,6 +9,7 @@ from tlcomm_tools.bag.origin import find_method, find_scenario
 from tlcomm_tools.bag.reader import read_run
 from tlcomm_tools.folder import replace_file
 from tlcomm_tools.report.document import report_document
+from tlcomm_tools.report.moves import read_best_responses
 from tlcomm_tools.report.page import render_page
 from tlcomm_tools.status import Status
 from tlcomm_tools.verbs.options import print_json
@@ -44,7 +45,8 @@ def run(options: Namespace) -> Status:
     _require_writable(options.out)
     recorded = read_run(options.run)
     scenario = find_scenario(options.run, recorded, options.scenario)
-    document = report_document(scenario, find_method(options.run, recorded), recorded)
+    method, said = find_method(options.run, recorded), read_best_responses(options.run)
+    document = report_document(scenario, method, recorded, said)
     text = render_page(document)
     replace_file(options.out, text)
     verdict = document["audit"]["verdict"]

@@ -70,7 +70,7 @@ function drawChosenAgent() {
 function describeTask(agent, satisfied) {
   const found = DATA.audit.tasks[agent.name];
   const own = DATA.metrics.agents[agent.name];
-  return `Satisfied ${satisfied} times by now, ${agent.satisfied_s.length} in all; `
+  return `Satisfied ${satisfied} × by now, ${agent.satisfied_s.length} × in all; `
     + `the audit counts ${told(found?.satisfied, 0)}${found?.verdict ? ` and finds it ${found.verdict}` : ""}. `
     + `One cycle takes ${told(own.mean_cycle_s)} s on average; ${told(own.distance_m)} m driven in all.`;
 }
@@ -78,9 +78,11 @@ function describeTask(agent, satisfied) {
 function describeNext(agent, round) {
   if (!round) return "No further meeting was agreed on.";
   const own = round.members.find((member) => member.agent === agent.name);
-  const what = RUN.has_meetings ? "meeting" : "turn";
+  if (!RUN.has_meetings) {
+    return `Next turn ${roundName(round)}: to ${toldPlace(own.place_m)} by ${told(own.planned_arrival_s)} s.`;
+  }
   const came = own.arrival_s === null ? "" : `, and came at ${told(own.arrival_s)} s`;
-  return `Next ${what} ${roundName(round)}: at ${toldPlace(own.place_m)} after step ${own.after_step}; `
+  return `Next meeting ${roundName(round)}: at ${toldPlace(own.place_m)} after step ${own.after_step}; `
     + `it was to be there at ${told(own.planned_arrival_s)} s${came}. It begins at `
     + `${told(startOf(round))} s.`;
 }

@@ -2,6 +2,8 @@
 
 const buttons = [];
 let shownRound = null;
+// What numbers in the page are rounded to.
+const ROUNDING_S = 0.001;
 
 function setUpRounds() {
   if (ROUNDS.length === 0) {
@@ -36,33 +38,47 @@ function drawRound() {
     element("p", {}, describeWhen(round)),
     element("p", {}, describeWhy(round)),
     memberTable(round),
+    ...(round.moves?.length ? [moveTable(round)] : []),
   );
 }
 
 function describeWhen(round) {
+  const holders = round.held_by.length === round.members.length ? "all" : round.held_by.join(", ");
+  const agreed = `Agreed by ${told(round.agreed_s, 3)} s, held by ${holders}; planned for `
+    + `${told(round.planned_s, 3)} s`;
+  if (!RUN.has_meetings) return `${agreed}.`;
   const [opens, closes] = round.window_s;
   const begun = round.started_s === null
     ? "it didn't take place before the end" : `it began at ${told(round.started_s, 3)} s`;
   const missed = MISSED.has(round.round) ? " The window was missed." : "";
-  const holders = round.held_by.length === round.members.length
-    ? "all" : round.held_by.join(", ");
-  return `Window from ${told(opens)} s to ${told(closes)} s. Agreed by ${told(round.agreed_s, 3)} s, held `
-    + `by ${holders}; planned for ${told(round.planned_s, 3)} s, ${begun}.${missed}`;
+  return `Window from ${told(opens)} s to ${told(closes)} s. ${agreed}, ${begun}.${missed}`;
 }
 
 function describeWhy(round) {
-  const saved = round.initial_potential_s - round.potential_s;
   const bound = round.bound_s === null ? "" : ` No strategy costs less than ${told(round.bound_s, 2)} s.`;
   const members = round.members;
   const detour = members.reduce((sum, own) => sum + own.detour_s, 0);
   const last = members.reduce((one, own) => (own.planned_arrival_s > one.planned_arrival_s ? own : one));
-  const waits = last.planned_arrival_s > round.window_s[0]
+  const opens = RUN.has_meetings ? round.window_s[0] : 0;
+  const waits = last.planned_arrival_s > opens
     ? `${last.agent} comes last, and the others wait for it.`
     : "All are there before the window opens, and wait for that.";
-  return `At the best common place it would have cost Φ(S⁰) = ${told(round.initial_potential_s, 2)} s; `
-    + `after the agents' proposals and ${round.moves} ${round.moves === 1 ? "move" : "moves"} of single `
-    + `agents Φ = ${told(round.potential_s, 2)} s, ${told(saved, 2)} s less: ${told(detour, 2)} s of detours `
+  return `Coordination began with a cost of Φ(S⁰) = ${told(round.initial_potential_s, 2)} s and came, `
+    + `${describeHow(round)}, to Φ = ${told(round.potential_s, 2)} s: ${told(detour, 2)} s of detours `
     + `and ${told(round.potential_s - detour, 2)} s of waiting. ${waits}${bound}`;
+}
+
+/** By what the cost came down: the best proposal, then moves of single agents. */
+function describeHow(round) {
+  const changes = (round.moves ?? []).map((own) => own.change_s);
+  const before = round.potential_s - changes.reduce((sum, own) => sum + own, 0);
+  const count = round.move_count;
+  const moves = `${count} ${count === 1 ? "move" : "moves"} of single agents`;
+  const byProposal = round.initial_potential_s - before > ROUNDING_S * (count + 1);
+  if (byProposal && round.moves !== null) {
+    return count ? `by the best proposal and ${moves}` : "by the best proposal";
+  }
+  return count ? `by ${moves}` : "without a move that betters it";
 }
 
 function memberTable(round) {
@@ -77,4 +93,14 @@ function memberTable(round) {
     told(own.additional_s, 2),
   ]);
   return tableOf("As planned, and as it came", columns, rows);
+}
+
+/** How the potential came down, move by move. */
+function moveTable(round) {
+  const columns = [["move", true], ["agent", false], ["to/m", false], ["change/s", true], ["Φ/s", true]];
+  const rows = round.moves.map((own, index) => [
+    String(index + 1), own.agent, toldPlace(own.place_m), told(own.change_s, 3),
+    told(own.potential_s, 3),
+  ]);
+  return tableOf("The potential's course, by the moves of single agents", columns, rows);
 }
