@@ -2,7 +2,7 @@
 
 const TRAIL_S = 30;
 const MARGIN_PX = 10;
-const MOST_HEIGHT_PX = 620;
+const MOST_HEIGHT_PX = 520;
 const NEAR_PX = 24;
 const canvas = byId("map");
 const pen = canvas.getContext("2d");
