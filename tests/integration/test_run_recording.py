@@ -143,10 +143,11 @@ def test_every_topic_is_in_the_bag(finished: tuple[Path, str]) -> None:
 
 
 def test_the_bag_says_what_was_run(finished: tuple[Path, str]) -> None:
-    """Scenario, method, solver and seed are inside, so that others need nothing beside it."""
+    """Scenario, method, solver, seed and pace are inside, so that others need nothing beside it."""
     notes = read_run(finished[0] / "bag").notes
     assert loads(notes.pop("scenario")).name == "corridor"
-    assert notes == {"method": "team", "solver": "coalition", "seed": "0"}
+    expected = {"method": "team", "solver": "coalition", "seed": "0", "pace": "lockstep"}
+    assert notes == expected
 
 
 def test_the_audit_passes(finished: tuple[Path, str]) -> None:

@@ -41,7 +41,7 @@ def test_no_verb_is_a_usage_error(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 BAD_USAGE = [
-    (["report", "x"], "unknown verb 'report' (the verbs are demo, run,"),
+    (["explain", "x"], "unknown verb 'explain' (the verbs are demo, run,"),
     (["dance"], "unknown verb 'dance'"),
     (["--version"], "unknown verb '--version'"),
     (["validate"], "the following arguments are required: SCENARIO"),
