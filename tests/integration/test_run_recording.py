@@ -139,7 +139,8 @@ def test_every_topic_is_in_the_bag(finished: tuple[Path, str]) -> None:
     topics = (*recorded_topics(AGENTS), *mirror_topics(AGENTS))
     assert found == {own.name: own.type for own in topics}
     assert duration_ns > 90e9
-    assert {counts[own.name] for own in mirror_topics(AGENTS)} == {1, duration_ns // 10**9 + 1}
+    last_s = duration_ns // 10**9
+    assert {counts[own.name] for own in mirror_topics(AGENTS)} == {1, last_s + 1, last_s // 2 + 1}
     assert counts["/clock"] == pytest.approx(duration_ns / 1e8, abs=2)
     assert min(counts[f"/{name}/cmd_vel"] for name in AGENTS) > 10
 

@@ -77,14 +77,16 @@ def test_mirrors_change_nothing_about_a_run(tmp_path: Path) -> None:
     assert run.records.messages_sent == hand_made_records().messages_sent
 
 
-def test_mirrors_come_once_a_second() -> None:
-    """Each topic has one at every whole second from 0 on; the regions stay."""
+def test_mirrors_come_at_whole_seconds() -> None:
+    """Paths at every second one, the others at each from 0 on; the regions stay."""
     times_s: dict[str, list[float]] = {}
-    for name, time_s in mirror_run(3.9):
+    for name, time_s in mirror_run(4.9):
         times_s.setdefault(name, []).append(time_s)
     assert times_s.pop("/region_markers") == [0.0]
-    assert len(times_s) == 2 + 2 * len(AGENTS)
-    assert all(own == [0.0, 1.0, 2.0, 3.0] for own in times_s.values())
+    assert times_s.pop("/team_markers") == [0.0, 1.0, 2.0, 3.0, 4.0]
+    assert times_s.pop("/diagnostics") == [0.0, 1.0, 2.0, 3.0, 4.0]
+    assert sorted(times_s) == [f"/{name}/{kind}" for name in AGENTS for kind in ("plan", "trail")]
+    assert all(own == [0.0, 2.0, 4.0] for own in times_s.values())
 
 
 def test_mirrors_dont_depend_on_the_order_of_arrival() -> None:

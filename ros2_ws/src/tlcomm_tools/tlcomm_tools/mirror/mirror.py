@@ -25,6 +25,8 @@ from tlcomm_tools.mirror.way import Way
 __all__ = ["Mirror", "Mirrored", "Recorded"]
 
 _PERIOD_NS: Final = nanoseconds(1.0)
+# Paths are most of the work and of the bytes.
+_PATH_PERIOD_NS: Final = nanoseconds(2.0)
 
 # stamp (ns), topic's number among the recorded ones, data
 Recorded = tuple[int, int, bytes]
@@ -33,7 +35,7 @@ Mirrored = tuple[int, int, bytes]
 
 
 class Mirror:
-    """Makes mirrors once a simulated second, at each as of then.
+    """Makes mirrors once a simulated second, paths every two, at each as of then.
 
     What it makes is a function of what it takes: where messages are taken in order of time, as in
     lock step and from a bag, the mirrors of equal runs are equal.
@@ -105,6 +107,8 @@ class Mirror:
             yield "/region_markers", make_region_markers(picture, now_ns)
         yield "/team_markers", make_team_markers(picture, now_ns)
         yield "/diagnostics", make_diagnostics(picture, now_ns)
+        if now_ns % _PATH_PERIOD_NS:
+            return
         for name, agent in picture.agents.items():
             here = agent.odometry
             yield f"/{name}/plan", make_plan(here, self._ways[name].ahead(picture), now_ns)
