@@ -9,7 +9,9 @@ import pytest
 from ament_index_python.packages import get_package_share_directory
 from rclpy.context import Context
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
+from visualization_msgs.msg import MarkerArray
 
 from support.hand_made_run import AGENTS, hand_made_scenario
 from support.spinning import SpunNodes
@@ -119,6 +121,27 @@ def test_in_lock_step_the_bag_grows_at_answers_only(recording: Recording) -> Non
     world.clock_pub.publish(Clock())
     recording.until(world.answered)
     assert recording.writer.path.stat().st_size > size
+
+
+def test_mirrors_are_there_for_viewers(recording: Recording) -> None:
+    """An answered tick shows the team; a viewer that comes later sees the regions as well."""
+    world, teams, regions = recording.world, [], []
+    world.node.create_subscription(MarkerArray, "/team_markers", teams.append, 10)
+    mirrors = recording.recorder._mirrors
+    recording.until(lambda: any(own.get_subscription_count() for own in mirrors))
+    world.tick()
+    world.clock_pub.publish(Clock())
+    world.clock_pub.publish(Clock())
+    recording.until(lambda: bool(teams))
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    world.node.create_subscription(MarkerArray, "/region_markers", regions.append, latched)
+    recording.until(lambda: bool(regions))
+    names = [marker.text for marker in regions[0].markers if marker.text]
+    assert names == ["left", "right"]
+    recording.writer.flush()
+    held = read_container(recording.writer.path, lambda _: True)
+    counts = {held.channels[number].topic: count for number, count in held.counts.items()}
+    assert counts["/team_markers"] == counts["/region_markers"] == 1
 
 
 def test_it_names_what_a_tick_waits_for(

@@ -1,5 +1,6 @@
 """Mirrors of the run made by hand, decoded or as bytes."""
 
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -31,9 +32,14 @@ def make_mirror(store: Typestore) -> Mirror:
     return Mirror(hand_made_scenario(), Method.TEAM, TOPICS, store)
 
 
+@cache
+def _store() -> Typestore:
+    return load_typestore(SHARE)
+
+
 def mirror_run(until_s: float, records: RunRecords | None = None) -> dict[tuple[str, float], Any]:
     """Return what is mirrored up to a time, decoded, by topic and time (s)."""
-    store = load_typestore(SHARE)
+    store = _store()
     mirror = make_mirror(store)
     for name, stamp_ns, data in serialize_run(store, records or hand_made_records()):
         mirror.take(_NUMBERS[name], stamp_ns, data)
@@ -47,7 +53,7 @@ def mirror_run(until_s: float, records: RunRecords | None = None) -> dict[tuple[
 
 def write_mirrored_bag(folder: Path) -> Path:
     """Write the hand-made run and its mirrors as the recorder does; return the file."""
-    store = load_typestore(SHARE)
+    store = _store()
     mirror = make_mirror(store)
     topics = (*TOPICS, *mirror.topics)
     definitions = {topic.type: read_definition(store, topic.type) for topic in topics}

@@ -82,8 +82,19 @@ def test_a_meeting_out_of_range_is_an_error() -> None:
     assert statuses(9.0, records)["radio"].level == Level.ERROR
 
 
+def test_slack_counts_from_the_agreed_meeting() -> None:
+    """While that is to come; once it should have begun, from now."""
+    records = hand_made_records()
+    for number, held in enumerate(records.strategies):
+        late = replace(held.strategy, communication_s=14.0)
+        if late.round == 1:
+            records.strategies[number] = replace(held, strategy=late)
+    assert values(statuses(10.0, records)["window"])["slack_s"] == "6.000"
+    assert values(statuses(15.0, hand_made_records())["window"])["slack_s"] == "5.000"
+
+
 def test_slack_runs_out_as_the_window_does() -> None:
-    """It counts from the agreed meeting, later from now; little is a warning, none an error."""
+    """A window that is over without a meeting is an error; one that was kept isn't."""
     records = hand_made_records()
     records.connectivity = [Connectivity(nanoseconds(0.0), (), connected=False)]
     assert values(statuses(4.0, records)["window"])["slack_s"] == "6.000"

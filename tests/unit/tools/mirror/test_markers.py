@@ -1,10 +1,12 @@
 """Tests of ``tlcomm_tools.mirror.markers``."""
 
 from collections import defaultdict
+from dataclasses import replace
 from typing import Any
 
 from rosbags.typesys.stores.ros2_jazzy import visualization_msgs__msg__Marker as Marker
 
+from support.hand_made_run import hand_made_records
 from support.mirroring import mirror_run
 
 
@@ -41,6 +43,16 @@ def test_links_join_those_who_hear_each_other() -> None:
     (line,) = kinds(mirrors["/team_markers", 0.0])["links"]
     assert [point.x for point in line.points] == [3.75, 3.25]
     assert "links" not in kinds(mirrors["/team_markers", 3.0])
+
+
+def test_links_that_do_not_join_the_team_look_different() -> None:
+    """The same edge, of a team that is connected as a whole or isn't."""
+    records = hand_made_records()
+    records.connectivity[0] = replace(records.connectivity[0], connected=False)
+    (apart,) = kinds(mirror_run(0.0, records)["/team_markers", 0.0])["links"]
+    (joined,) = kinds(mirror_run(0.0)["/team_markers", 0.0])["links"]
+    assert apart.points == joined.points
+    assert apart.color != joined.color
 
 
 def test_meeting_places_are_shown_when_they_are_agreed() -> None:
