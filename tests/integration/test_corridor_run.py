@@ -10,6 +10,7 @@ import pytest
 from support.gate import gate
 from support.measuring_corridor import measuring_corridor
 from tlcomm_core.agent.channel import LOST
+from tlcomm_core.errors import InputError
 from tlcomm_core.game.solver import DEFAULT
 from tlcomm_core.method import Method
 from tlcomm_core.metrics.run import run_metrics
@@ -24,6 +25,8 @@ from tlcomm_core.world.observation import Odometry
 from tlcomm_tools.bag.reader import read_run
 from tlcomm_tools.run import RunOptions, RunReport, run_mission
 from tlcomm_tools.status import Status
+from tlcomm_tools.verification.findings import verify
+from tlcomm_tools.verification.recording import read_recording
 
 CORRIDOR = Path(__file__).parents[2] / "scenarios" / "corridor.yaml"
 SCENARIO = load_scenario(CORRIDOR)
@@ -115,7 +118,7 @@ def test_lock_step_run_equals_the_simulation(
     tmp_path: Path, scenario: Scenario, rounds: int, method: Method
 ) -> None:
     """Over ROS the same decisions fall and the same poses and estimates are recorded, to the bit;
-    all is well, and the figures are equal.
+    all is well, the figures are equal, and the bag is enough to decide the same again.
     """
     segments: list[str] = []
     report = run_mission(
@@ -140,6 +143,7 @@ def test_lock_step_run_equals_the_simulation(
     assert recorded.messages_undelivered == expected.messages_undelivered
     assert sorted(recorded.estimates, key=repr) == sorted(expected.estimates, key=repr)
     assert bool(recorded.estimates) is (scenario.field is not None)
+    assert verify(read_recording(report.folder.bag)).difference is None
     assert segments == []
     assert processes(tmp_path) == {}
 
@@ -152,6 +156,7 @@ def test_lock_step_run_over_a_bad_radio_equals_the_simulation(tmp_path: Path) ->
     scenario = SCENARIO.model_copy(update={"radio": radio})
     report = run_mission(options_of(tmp_path / "run", 2, scenario=scenario), lambda *_: None)
     recorded = read_run(report.folder.bag).records
+    assert verify(read_recording(report.folder.bag)).difference is None
     expected = simulate(Mission(Site.from_scenario(scenario), 0, 2, None)).records
     assert list(event_log(recorded)) == list(event_log(expected))
     assert recorded.messages_sent == expected.messages_sent
@@ -172,6 +177,8 @@ def test_free_run_meets(tmp_path: Path) -> None:
     assert report.result["communication"]["missed"] == 0
     recorded = read_run(report.folder.bag).records
     assert any(own.has_measurement for own in recorded.estimates)
+    with pytest.raises(InputError, match=r"at pace 5\.0"):
+        verify(read_recording(report.folder.bag))
 
 
 @pytest.mark.parametrize("victim", [next(iter(SCENARIO.agents)), "sim", "recorder"])

@@ -60,7 +60,7 @@ motion: {linear_mps: 1.0, angular_radps: 1.5}
 actions: {pick: 1.0}
 agents:
   east: {start: [3.75, 0.25, 0.0], task: "G F (right & pick)"}
-  west: {start: [3.25, 0.25, 3.141592653589793], task: "G F (left & pick)"}
+  west: {start: [3.25, 0.25, 0.0], task: "G F (left & pick)"}
 """
 
 # Both wait in the middle until 2 s, are at their regions from 4.5 s (east) or 4 s (west), pick for
@@ -108,12 +108,11 @@ def _add_round(records: RunRecords, number: int) -> None:
         way_m = _AWAY[agent] - _MIDDLE[agent]
         there_s = begin_s + 2.0 + abs(way_m)
         back_s = there_s + 1.0 + abs(way_m)
-        yaw_rad = 0.0 if way_m > 0.0 else math.pi
         records.odometry += [
             *(_standing(agent, _MIDDLE[agent], begin_s + t) for t in (0.0, 1.0)),
-            *_moving(agent, begin_s + 2.0, _MIDDLE[agent], _AWAY[agent], yaw_rad),
+            *_moving(agent, begin_s + 2.0, _MIDDLE[agent], _AWAY[agent]),
             *(_standing(agent, _AWAY[agent], there_s + t) for t in (0.0, 0.5)),
-            *_moving(agent, there_s + 1.0, _AWAY[agent], _MIDDLE[agent], yaw_rad + math.pi),
+            *_moving(agent, there_s + 1.0, _AWAY[agent], _MIDDLE[agent]),
             _standing(agent, _MIDDLE[agent], back_s),
         ]
         records.odometry += [
@@ -157,14 +156,15 @@ def _standing(agent: str, x_m: float, time_s: float) -> Odometry:
     return Odometry(nanoseconds(time_s), agent, Pose(x_m, 0.25, 0.0), 0.0, 0.0)
 
 
-def _moving(
-    agent: str, time_s: float, from_m: float, to_m: float, yaw_rad: float
-) -> Iterable[Odometry]:
-    """Yield a sample every half second from the start on, before the arrival, at 1 m/s."""
+def _moving(agent: str, time_s: float, from_m: float, to_m: float) -> Iterable[Odometry]:
+    """Yield a sample every half second from the start on, before the arrival, at 1 m/s.
+
+    All look east the whole time: to the west they drive backwards, as a turn would take time.
+    """
+    speed_mps = math.copysign(1.0, to_m - from_m)
     for step in range(round(2.0 * abs(to_m - from_m))):
-        way_m = math.copysign(0.5 * step, to_m - from_m)
-        pose = Pose(from_m + way_m, 0.25, yaw_rad).as_transmitted()
-        yield Odometry(nanoseconds(time_s + 0.5 * step), agent, pose, 1.0, 0.0)
+        pose = Pose(from_m + 0.5 * step * speed_mps, 0.25, 0.0)
+        yield Odometry(nanoseconds(time_s + 0.5 * step), agent, pose, speed_mps, 0.0)
 
 
 def task(  # noqa: D103 - says itself

@@ -12,7 +12,7 @@ setup(
     author_email="maintainers@tlcomm.dev",
     license="Apache-2.0",
     packages=find_packages(include=[PACKAGE, f"{PACKAGE}.*"]),
-    package_data={PACKAGE: ["py.typed", "runtime/loopback.xml"]},
+    package_data={PACKAGE: ["py.typed", "runtime/loopback.xml", "runtime/prompt.xml"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),

@@ -117,8 +117,8 @@ def run_mission(options: RunOptions, on_progress: Callable[[float, int], None]) 
 def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
     """Return the recorder, the sim and the agents, in the order in which they start."""
     scenario = ("--scenario", str(folder.scenario.absolute()))
-    seed = ("--seed", str(options.seed))
-    common = (*scenario, *seed, "--pace", str(options.pace), "--recorder")
+    world = (*scenario, "--seed", str(options.seed), "--pace", str(options.pace))
+    common = (*world, "--recorder")
     solver, method = options.method.solver(options.solver).name, options.method.value
     coordination = ("--solver", solver, "--method", method)
     limit_s = time_limit_s(options.scenario, options.rounds, options.until_s, options.method)
@@ -132,7 +132,7 @@ def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
 
     bag = ("--bag", str(folder.bag.absolute()))
     return [
-        spec("recorder", "recorder", *bag, *scenario, *seed, *coordination, stop_last=True),
+        spec("recorder", "recorder", *bag, *world, *coordination, stop_last=True),
         spec("sim", "sim", *common, *end),
         *(
             spec(name, "agent", "--name", name, *coordination, *common)

@@ -4,6 +4,8 @@
 ``read_odometry``, ``read_connectivity``, ``read_task_event``, ``read_team_strategy``,
 ``read_round_timing``, ``read_estimate``, ``read_undelivered``  one per recorded type that results
 are computed from
+``read_strategy``       one agent's part in a team strategy
+``stamp_ns``            a time
 
 They need no ROS.
 """
@@ -25,9 +27,11 @@ __all__ = [
     "read_estimate",
     "read_odometry",
     "read_round_timing",
+    "read_strategy",
     "read_task_event",
     "read_team_strategy",
     "read_undelivered",
+    "stamp_ns",
 ]
 
 # Decoders make the classes as they read a file's definitions.
@@ -39,7 +43,7 @@ def read_odometry(message: DecodedMessage, agent: str) -> Odometry:
     place, turn = message.pose.pose.position, message.pose.pose.orientation
     twist = message.twist.twist
     return Odometry(
-        stamp_ns=_stamp_ns(message.header.stamp),
+        stamp_ns=stamp_ns(message.header.stamp),
         agent=agent,
         pose=Pose(place.x, place.y, yaw_from_quaternion(turn.z, turn.w)),
         linear_mps=twist.linear.x,
@@ -51,7 +55,7 @@ def read_connectivity(message: DecodedMessage) -> Connectivity:
     """Read a ``tlcomm_msgs/Connectivity``; older ones have no distances."""
     ends = [int(end) for end in message.edges]
     return Connectivity(
-        stamp_ns=_stamp_ns(message.header.stamp),
+        stamp_ns=stamp_ns(message.header.stamp),
         edges=tuple(zip(ends[::2], ends[1::2], strict=True)),
         connected=message.connected,
         distances_m=tuple(float(distance) for distance in getattr(message, "distances", ())),
@@ -68,7 +72,7 @@ def read_task_event(message: DecodedMessage) -> TaskRecord:
         plan_index=message.plan_index,
         detail=message.detail,
     )
-    return TaskRecord(_stamp_ns(message.header.stamp), message.agent, event)
+    return TaskRecord(stamp_ns(message.header.stamp), message.agent, event)
 
 
 def read_team_strategy(message: DecodedMessage, agent: str) -> StrategyRecord:
@@ -76,13 +80,13 @@ def read_team_strategy(message: DecodedMessage, agent: str) -> StrategyRecord:
     strategy = TeamStrategy(
         round=message.round,
         iteration=message.iteration,
-        strategies=tuple(_read_strategy(own) for own in message.strategies),
+        strategies=tuple(read_strategy(own) for own in message.strategies),
         communication_s=message.communication_time,
         potential_s=message.potential,
         initial_potential_s=message.initial_potential,
         bound_s=message.bound if math.isfinite(message.bound) else None,
     )
-    return StrategyRecord(_stamp_ns(message.header.stamp), agent, strategy)
+    return StrategyRecord(stamp_ns(message.header.stamp), agent, strategy)
 
 
 def read_round_timing(message: DecodedMessage) -> RoundTiming:
@@ -91,15 +95,15 @@ def read_round_timing(message: DecodedMessage) -> RoundTiming:
         agent=message.agent,
         round=message.round,
         solve_wall_s=message.solve_wall,
-        offered_wall_s=seconds(_stamp_ns(message.offered_at)),
-        agreed_wall_s=seconds(_stamp_ns(message.agreed_at)),
+        offered_wall_s=seconds(stamp_ns(message.offered_at)),
+        agreed_wall_s=seconds(stamp_ns(message.agreed_at)),
     )
 
 
 def read_estimate(message: DecodedMessage) -> EstimateRecord:
     """Read a ``tlcomm_msgs/Estimate``."""
     return EstimateRecord(
-        stamp_ns=_stamp_ns(message.header.stamp),
+        stamp_ns=stamp_ns(message.header.stamp),
         agent=message.agent,
         value=message.value,
         last_measurement=message.last_measurement,
@@ -112,7 +116,8 @@ def read_undelivered(message: DecodedMessage) -> dict[str, int]:
     return dict(zip(message.reasons, map(int, message.counts), strict=True))
 
 
-def _read_strategy(message: DecodedMessage) -> Strategy:
+def read_strategy(message: DecodedMessage) -> Strategy:
+    """Read a ``tlcomm_msgs/Strategy``."""
     return Strategy(
         agent=message.agent,
         x_m=message.location.x,
@@ -123,5 +128,6 @@ def _read_strategy(message: DecodedMessage) -> Strategy:
     )
 
 
-def _stamp_ns(stamp: DecodedMessage) -> int:
+def stamp_ns(stamp: DecodedMessage) -> int:
+    """Read a ``builtin_interfaces/Time`` in nanoseconds."""
     return int(stamp.sec) * NANOSECONDS_PER_SECOND + int(stamp.nanosec)

@@ -33,6 +33,10 @@ def test_a_good_run_has_no_violations() -> None:
     """Windows, tasks and strategies of the good run are found as they are."""
     found = audit(hand_made_records())
     assert found.violations == ()
+    assert set(found.document()["checks"]) == {
+        *("bag", "records", "method", "motion", "clearance", "actions"),
+        *("tasks", "strategies", "meetings"),
+    }
     assert [own.satisfied for own in found.windows] == [True, True, True]
     # They are half a metre apart at a meeting and leave at 1 m/s each: a quarter of a second more.
     # East comes last and is in range half a second before its arrival at 8 s and 18 s.
@@ -194,7 +198,16 @@ def act_nowhere(records: RunRecords) -> None:
 @pytest.mark.parametrize(
     ("spoil", "violations"),
     [
-        (shift_pose, ["window 1: connected for 0.000 s from [10 s, 20 s) on, not 2 s"]),
+        (
+            shift_pose,
+            [
+                "window 1: connected for 0.000 s from [10 s, 20 s) on, not 2 s",
+                (
+                    "west: 6.500 s: jumps by 0.050 m from where its velocity leads; "
+                    "6 times, at most 0.500 m"
+                ),
+            ],
+        ),
         (drop_odometry, ["east: no odometry from 22.000 s to 25.000 s"]),
         (
             drop_all_odometry,
@@ -224,6 +237,10 @@ def act_nowhere(records: RunRecords) -> None:
         (
             act_elsewhere,
             [
+                (
+                    "west: 4.000 s: jumps by 1.000 m from where its velocity leads; "
+                    "2 times, at most 1.000 m"
+                ),
                 "west: 4.000 s: 'pick' done 1.000 m from 'left', whose radius is 0.3 m",
                 "west: 5.000 s: 'pick' done 1.000 m from 'left', whose radius is 0.3 m",
             ],

@@ -8,7 +8,11 @@ from pathlib import Path
 import pytest
 
 from tlcomm_core.errors import InputError
-from tlcomm_tools.runtime.domain import claim_domain, process_environment
+from tlcomm_tools.runtime.domain import (
+    claim_domain,
+    player_environment,
+    process_environment,
+)
 
 
 def test_two_claims_differ(tmp_path: Path) -> None:
@@ -91,3 +95,12 @@ def test_too_many_processes_for_the_range_localhost(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="31 processes"):
         process_environment({"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}, 1, tmp_path, 31)
     process_environment({}, 1, tmp_path, 31)
+
+
+def test_a_replay_is_where_the_users_tools_are() -> None:
+    """Domain and discovery are left alone; what the user has chosen of the rest is, too."""
+    added = player_environment({"ROS_DOMAIN_ID": "7"})
+    assert added.keys() == {"FASTDDS_BUILTIN_TRANSPORTS", "FASTRTPS_DEFAULT_PROFILES_FILE"}
+    assert Path(added["FASTRTPS_DEFAULT_PROFILES_FILE"]).is_file()
+    chosen = {"FASTRTPS_DEFAULT_PROFILES_FILE": "mine.xml"}
+    assert player_environment(chosen).keys() == {"FASTDDS_BUILTIN_TRANSPORTS"}

@@ -8,10 +8,15 @@
 ``progress``    what a word says of a task: the runtime monitor's verdict
 ``tasks``       each task's verdict and satisfactions
 ``trespass``    whether agents kept out of what their tasks forbid
+``finiteness``  what isn't a number, and is left out
+``motion``      whether agents drove as they can: no faster, and without jumps
+``clearance``   whether agents kept clear of obstacles, which may come and go
+``actions``     whether actions were done where they claim, and for as long as they take
 ``conditions``  whether actions had what they need first
 ``guarantees``  whether the method of coordination kept its promises
 ``agreements``  who agrees on what
 ``strategies``  whether those who agree hold the same strategies
+``plans``       whether their meetings are connected, in their windows and to be had in time
 ``meetings``    whether their places are as the scenario demands
 ``findings``    all of it as one document: ``audit_run`` is the way in
 

@@ -9,6 +9,8 @@ from functools import cached_property
 
 from tlcomm_core.records import RunRecords, TaskRecord
 from tlcomm_core.scenario.model import Scenario
+from tlcomm_core.world.observation import Odometry
+from tlcomm_tools.audit.finiteness import keep_finite
 from tlcomm_tools.audit.links import Interval, WindowFinding, judge_windows, team_intervals
 from tlcomm_tools.audit.tracks import Track, build_tracks
 
@@ -21,10 +23,10 @@ class Evidence:
 
     Attributes:
         scenario: what was asked for.
-        records: what was recorded.
+        records: what was recorded, as far as it is finite.
         end_s: end of the run.
         track_of: where each agent was; nothing of agents without odometry.
-        faults: what is wrong with the odometry, a line each.
+        faults: what isn't finite, and where odometry is missing, a line each.
     """
 
     scenario: Scenario
@@ -36,9 +38,10 @@ class Evidence:
     @classmethod
     def gather(cls, scenario: Scenario, records: RunRecords, end_s: float) -> "Evidence":
         """Return what a run's records tell."""
-        tracks, faults = build_tracks(records.odometry, tuple(scenario.agents), end_s)
+        finite, flaws = keep_finite(records)
+        tracks, faults = build_tracks(finite.odometry, tuple(scenario.agents), end_s)
         track_of = {track.agent: track for track in tracks}
-        return cls(scenario, records, end_s, track_of, tuple(faults))
+        return cls(scenario, finite, end_s, track_of, (*flaws, *faults))
 
     @property
     def agents(self) -> tuple[str, ...]:
@@ -61,7 +64,11 @@ class Evidence:
 
     def events_of(self, agent: str) -> list[TaskRecord]:
         """Return an agent's own events, in order of time."""
-        return [record for record in self.records.tasks if record.agent == agent]
+        return self._events.get(agent, [])
+
+    def samples_of(self, agent: str) -> list[Odometry]:
+        """Return an agent's own odometry, in order of time."""
+        return [sample for sample in self.records.odometry if sample.agent == agent]
 
     def _together(self, agents: Sequence[str]) -> list[Interval]:
         if not self.track_of.keys() >= set(agents):
@@ -69,6 +76,13 @@ class Evidence:
         walls = self.scenario.workspace.obstacles_m if self.scenario.radio.line_of_sight else ()
         tracks = [self.track_of[agent] for agent in agents]
         return team_intervals(tracks, self.scenario.communication.range_m, walls)
+
+    @cached_property
+    def _events(self) -> dict[str, list[TaskRecord]]:
+        events: dict[str, list[TaskRecord]] = {}
+        for record in self.records.tasks:
+            events.setdefault(record.agent, []).append(record)
+        return events
 
     def _judge(self, intervals: Sequence[Interval]) -> list[WindowFinding]:
         links = self.scenario.communication

@@ -5,19 +5,23 @@
 ``audit_run``     audits a run from its records, be they from a bag or from memory
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
 from tlcomm_core.method import Method
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
+from tlcomm_tools.audit.actions import audit_actions
+from tlcomm_tools.audit.clearance import audit_clearance
 from tlcomm_tools.audit.conditions import audit_conditions
 from tlcomm_tools.audit.evidence import Evidence
 from tlcomm_tools.audit.guarantees.guarantee import Guarantee
 from tlcomm_tools.audit.guarantees.methods import audit_guarantees
 from tlcomm_tools.audit.links import WindowFinding
 from tlcomm_tools.audit.meetings import audit_meetings
+from tlcomm_tools.audit.motion import audit_motion
+from tlcomm_tools.audit.plans import audit_plans
 from tlcomm_tools.audit.strategies import StrategyFinding, audit_strategies
 from tlcomm_tools.audit.tasks import TaskFinding, audit_task
 from tlcomm_tools.audit.trespass import audit_trespass
@@ -40,7 +44,7 @@ class Audit:
         windows: each window's outcome for the whole team, whether or not that is promised.
         tasks: each agent's task.
         strategies: what agents hold.
-        violations: one line each, of all kinds.
+        checks: by what was checked, what is wrong, a line each.
     """
 
     scenario: str
@@ -51,7 +55,12 @@ class Audit:
     windows: tuple[WindowFinding, ...]
     tasks: tuple[TaskFinding, ...]
     strategies: StrategyFinding
-    violations: tuple[str, ...]
+    checks: Mapping[str, tuple[str, ...]]
+
+    @property
+    def violations(self) -> tuple[str, ...]:
+        """What is wrong, a line each, of all checks."""
+        return tuple(line for lines in self.checks.values() for line in lines)
 
     def document(self) -> dict[str, Any]:
         """Return it ready for ``json.dumps``."""
@@ -77,6 +86,7 @@ class Audit:
                 for own in self.tasks
             },
             "strategies": {"rounds": self.strategies.rounds, "equal": self.strategies.equal},
+            "checks": {name: list(lines) for name, lines in self.checks.items()},
             "verdict": list(self.violations) or "ok",
         }
 
@@ -99,15 +109,15 @@ def audit_run(
     guarantees = audit_guarantees(method, evidence)
     tasks = [audit_task(method, evidence, agent) for agent in evidence.agents]
     strategies = audit_strategies(method, evidence)
-    violations = [
-        *([f"the bag is damaged: {damage}"] if damage else []),
-        *evidence.faults,
-        *(line for own in guarantees for line in own.violations),
-        *(line for own in tasks for line in own.violations),
-        *(line for agent in evidence.agents for line in _breaches(evidence, agent)),
-        *strategies.violations,
-        *(audit_meetings(scenario, records.strategies) if method.chooses_places else ()),
-    ]
+    checks = {
+        "bag": (f"the bag is damaged: {damage}",) if damage else (),
+        "records": (*evidence.faults, *_silent(method, evidence)),
+        "method": tuple(line for own in guarantees for line in own.violations),
+        **_deeds(evidence),
+        "tasks": tuple(line for own in tasks for line in own.violations),
+        "strategies": strategies.violations,
+        "meetings": tuple(_meetings(method, evidence)),
+    }
     return Audit(
         scenario=scenario.name,
         method=method,
@@ -117,12 +127,36 @@ def audit_run(
         windows=tuple(evidence.windows),
         tasks=tuple(tasks),
         strategies=strategies,
-        violations=tuple(violations),
+        checks=checks,
     )
 
 
-def _breaches(evidence: Evidence, agent: str) -> Iterator[str]:
-    """Say where an agent was, or what it did, that it may not."""
-    scenario, track = evidence.scenario, evidence.track_of.get(agent)
-    yield from audit_trespass(scenario, agent, track)
-    yield from audit_conditions(scenario, agent, evidence.events_of(agent), track)
+def _silent(method: Method, evidence: Evidence) -> Iterator[str]:
+    """Say who told nothing of what it did: whoever meets tells at least that."""
+    period_s = evidence.scenario.communication.period_s
+    if method.has_meetings and evidence.end_s >= period_s:
+        for agent in evidence.agents:
+            if not evidence.events_of(agent):
+                yield f"{agent}: no task events in {evidence.end_s:.3f} s"
+
+
+def _deeds(evidence: Evidence) -> dict[str, tuple[str, ...]]:
+    """Say, by check, what agents did that they can't or may not."""
+    found: dict[str, list[str]] = {name: [] for name in ("motion", "clearance", "actions")}
+    scenario = evidence.scenario
+    for agent in evidence.agents:
+        track, events = evidence.track_of.get(agent), evidence.events_of(agent)
+        found["motion"] += audit_motion(scenario, agent, evidence.samples_of(agent))
+        found["clearance"] += audit_clearance(scenario.workspace, track)
+        found["clearance"] += audit_trespass(scenario, agent, track)
+        found["actions"] += audit_actions(scenario, agent, events, track)
+        found["actions"] += audit_conditions(scenario, agent, events, track)
+    return {name: tuple(lines) for name, lines in found.items()}
+
+
+def _meetings(method: Method, evidence: Evidence) -> Iterator[str]:
+    """Say what is wrong with the meetings that were agreed on."""
+    if method.has_meetings:
+        yield from audit_plans(evidence)
+    if method.chooses_places:
+        yield from audit_meetings(evidence.scenario, evidence.records.strategies)

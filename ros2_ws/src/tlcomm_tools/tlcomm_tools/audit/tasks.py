@@ -10,8 +10,6 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
 
-import numpy as np
-
 from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.method import Method
 from tlcomm_core.records import TaskRecord
@@ -25,8 +23,6 @@ from tlcomm_tools.audit.words import Letter, read_word
 
 __all__ = ["TaskFinding", "audit_task"]
 
-# An agent stands at a cell's centre to within its position tolerance; floating point beyond that.
-_PLACE_SLACK_M = 1e-6
 _TIME_SLACK_S = 1e-6
 _SPARE_WINDOWS = 2
 _STEPS = (TaskEventKind.ACTION_FINISHED, TaskEventKind.REGION_VISITED)
@@ -67,10 +63,9 @@ def audit_task(method: Method, evidence: Evidence, agent: str) -> TaskFinding:
     scenario, events, end_s = evidence.scenario, evidence.events_of(agent), evidence.end_s
     track = evidence.track_of.get(agent)
     claimed_s = _times_s(events, TaskEventKind.TASK_SATISFIED)
-    seen = (*_misplaced(scenario, agent, events, track), *_hasty(scenario, agent, events))
     if any(record.event.kind is TaskEventKind.TASK_CHANGED for record in events):
         # What the scenario says isn't what it did.
-        return TaskFinding(agent, len(claimed_s), None, None, None, None, seen)
+        return TaskFinding(agent, len(claimed_s), None, None, None, None, ())
     # A plan that begins anew claims what its own steps satisfy, not what all steps do.
     anew_s = min(_times_s(events, TaskEventKind.PLAN_CHANGED), default=math.inf)
     course = _course(scenario, agent, events, track)
@@ -84,7 +79,6 @@ def audit_task(method: Method, evidence: Evidence, agent: str) -> TaskFinding:
         verdict=course.progress.verdict,
         settled_s=None if settled is None else course.times_s[settled],
         violations=(
-            *seen,
             *_violated(agent, course),
             *_unfounded(agent, claimed_s, satisfied_s, anew_s),
             *_neglected(method, evidence, agent, course.recurring, gap),
@@ -156,49 +150,6 @@ def _violated(agent: str, course: _Course) -> Iterator[str]:
         letter = ", ".join(sorted(course.word[violated - 1]))
         what = f"what was true then: {{{letter}}}"
     yield f"{agent}: task violated at {course.times_s[violated]:.3f} s; {what}"
-
-
-def _misplaced(
-    scenario: Scenario, agent: str, events: Sequence[TaskRecord], track: Track | None
-) -> Iterator[str]:
-    """Say which actions were not done in the regions that they claim."""
-    slack_m = scenario.drive_of(agent).position_tolerance_m + _PLACE_SLACK_M
-    kinds = (TaskEventKind.ACTION_STARTED, *_STEPS)
-    for record in events:
-        event = record.event
-        if track is None or event.kind not in kinds or not event.region:
-            continue
-        time_s = record.stamp_ns * 1e-9
-        region = scenario.workspace.regions.get(event.region)
-        if region is None:
-            yield f"{agent}: {time_s:.3f} s: no region {event.region!r}"
-            continue
-        x_m, y_m = track.at(np.array([time_s]))[0]
-        away_m = math.dist(region.at_m, (x_m, y_m))
-        if away_m > region.radius_m + slack_m:
-            yield (
-                f"{agent}: {time_s:.3f} s: {event.action or 'visit'!r} done {away_m:.3f} m "
-                f"from {event.region!r}, whose radius is {region.radius_m:g} m"
-            )
-
-
-def _hasty(scenario: Scenario, agent: str, events: Sequence[TaskRecord]) -> Iterator[str]:
-    """Say which actions took less time than they take, or were finished without a start."""
-    durations_s = scenario.actions_of(agent)
-    started_s: dict[str, float] = {}
-    for record in events:
-        event, time_s = record.event, record.stamp_ns * 1e-9
-        if event.kind is TaskEventKind.ACTION_STARTED:
-            started_s[event.action] = time_s
-        elif event.kind is TaskEventKind.ACTION_FINISHED and event.action:
-            since_s = started_s.pop(event.action, None)
-            if since_s is None:
-                yield f"{agent}: {time_s:.3f} s: {event.action!r} finished, but never started"
-            elif time_s - since_s < durations_s.get(event.action, 0.0) - _TIME_SLACK_S:
-                yield (
-                    f"{agent}: {time_s:.3f} s: {event.action!r} took {time_s - since_s:.3f} s, "
-                    f"not {durations_s[event.action]:g} s"
-                )
 
 
 def _unfounded(

@@ -11,15 +11,14 @@ from operator import attrgetter
 from pathlib import Path
 
 import yaml
-from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
-from rosbags.typesys.store import Typestore
 
 from tlcomm_core.errors import InputError
 from tlcomm_core.method import Method, parse_method
 from tlcomm_core.records import RunRecords
 from tlcomm_tools import wire
 from tlcomm_tools.bag.container import Channel, Container, read_container
-from tlcomm_tools.bag.topics import TEAM_TOPICS
+from tlcomm_tools.bag.topics import TEAM_TOPICS, split_topic
+from tlcomm_tools.bag.typestore import make_typestore
 
 __all__ = ["RecordedRun", "find_files", "read_run"]
 
@@ -42,8 +41,8 @@ class RecordedRun:
         records: the run.
         agents: as the bag's connectivity messages list them, or else sorted.
         end_ns: the last time recorded.
-        notes: what the recorder wrote about the run (scenario, method, solver, seed); empty in
-            others' bags.
+        notes: what the recorder wrote about the run (scenario, method, solver, seed, pace); empty
+            in others' bags.
         damage: why reading ended early, or "".
     """
 
@@ -117,16 +116,10 @@ def read_run(path: Path) -> RecordedRun:
 
 
 def _is_wanted(channel: Channel) -> bool:
-    _, suffix = _split_topic(channel.topic)
+    _, suffix = split_topic(channel.topic)
     return channel.type == (
         _CONNECTIVITY if channel.topic == "/connectivity" else _DECODED.get(suffix)
     )
-
-
-def _split_topic(topic: str) -> tuple[str, str]:
-    """Return the agent and the topic's own name."""
-    agent, _, suffix = topic.removeprefix("/").rpartition("/")
-    return agent, suffix
 
 
 def _require_run(path: Path, containers: Iterable[Container]) -> None:
@@ -179,7 +172,7 @@ class _Collected:
 
     def take(self, container: Container) -> None:
         """Decode a container's messages; count and measure what was said."""
-        store = _make_typestore(container.channels.values())
+        store = make_typestore(filter(_is_wanted, container.channels.values()))
         takers = {
             number: self._taker(channel)
             for number, channel in container.channels.items()
@@ -195,14 +188,14 @@ class _Collected:
 
     @staticmethod
     def _count(channel: Channel, sent: dict[str, int], amount: int) -> None:
-        agent, suffix = _split_topic(channel.topic)
+        agent, suffix = split_topic(channel.topic)
         if agent and suffix in TEAM_TOPICS:
             sent[agent] = sent.get(agent, 0) + amount
         elif agent and suffix == "odom":
             sent.setdefault(agent, 0)
 
     def _taker(self, channel: Channel) -> Callable[[wire.DecodedMessage], None]:
-        agent, suffix = _split_topic(channel.topic)
+        agent, suffix = split_topic(channel.topic)
         records = self.records
         takers: dict[str, Callable[[wire.DecodedMessage], None]] = {
             "odom": lambda message: records.odometry.append(wire.read_odometry(message, agent)),
@@ -221,22 +214,3 @@ class _Collected:
     def _take_connectivity(self, message: wire.DecodedMessage) -> None:
         self.agents = self.agents or tuple(message.agents)
         self.records.connectivity.append(wire.read_connectivity(message))
-
-
-def _make_typestore(channels: Iterable[Channel]) -> Typestore:
-    """Return the types that the file itself defines."""
-    store = get_typestore(Stores.EMPTY)
-    types = {}
-    for channel in channels:
-        if not _is_wanted(channel):
-            continue
-        if channel.encoding != "cdr":
-            raise InputError(
-                f"topic {channel.topic!r} is encoded as {channel.encoding!r}, expected 'cdr'"
-            )
-        if channel.definition_encoding == "ros2idl":
-            types.update(get_types_from_idl(channel.definition))
-        elif channel.type not in types:
-            types.update(get_types_from_msg(channel.definition, channel.type))
-    store.register(types)
-    return store

@@ -19,6 +19,7 @@ __all__ = [
     "chunk",
     "chunk_index",
     "data_end",
+    "end",
     "footer",
     "header",
     "message",
@@ -177,3 +178,22 @@ def footer(summary: bytes, summary_start: int, offsets_start: int) -> bytes:
     """Encode the last record, with the summary's checksum."""
     head = struct.pack("<BQQQ", Opcode.FOOTER, 20, summary_start, offsets_start)
     return head + struct.pack("<I", crc32(head, crc32(summary)))
+
+
+def end(start: int, groups: Sequence[tuple[Opcode, bytes]]) -> bytes:
+    """Encode what comes behind the data: the summary, where what lies in it, and the end.
+
+    Args:
+        start: where the data end in the file.
+        groups: the summary's records, those of one kind together.
+    """
+    ended = data_end()
+    start += len(ended)
+    summary, offsets = bytearray(), bytearray()
+    for opcode, group in groups:
+        if group:
+            offsets += summary_offset(opcode, start + len(summary), len(group))
+            summary += group
+    offsets_start = start + len(summary)
+    summary += offsets
+    return ended + bytes(summary) + footer(bytes(summary), start, offsets_start) + MAGIC

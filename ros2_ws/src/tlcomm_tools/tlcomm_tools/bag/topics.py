@@ -3,6 +3,7 @@
 ``Topic``            a recorded topic
 ``recorded_topics``  all of them, for a team
 ``mirror_topics``    what the recorder adds for other people's viewers
+``split_topic``      whose a topic is
 ``TEAM_TOPICS``      the topics that agents talk on
 ``FIELD_TOPICS``     those that are there only if something is measured
 """
@@ -17,6 +18,7 @@ __all__ = [
     "Topic",
     "mirror_topics",
     "recorded_topics",
+    "split_topic",
 ]
 
 AGENT_TOPICS = {
@@ -88,3 +90,9 @@ def mirror_topics(agents: Iterable[str]) -> tuple[Topic, ...]:
             for suffix in ("plan", "trail")
         ),
     )
+
+
+def split_topic(name: str) -> tuple[str, str]:
+    """Return the agent whose topic it is, or "", and the topic's own name."""
+    agent, _, suffix = name.removeprefix("/").rpartition("/")
+    return agent, suffix

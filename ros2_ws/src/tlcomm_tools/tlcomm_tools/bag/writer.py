@@ -197,8 +197,6 @@ class BagWriter:
         self._file_end = end + len(tail)
 
     def _render_tail(self, data_end: int) -> bytes:
-        ended = records.data_end()
-        start = data_end + len(ended)
         counted = records.statistics(
             self._counts,
             self._schema_count,
@@ -213,15 +211,7 @@ class BagWriter:
             (records.Opcode.METADATA_INDEX, self._note_index),
             (records.Opcode.STATISTICS, counted),
         )
-        summary, offsets = bytearray(), bytearray()
-        for opcode, group in groups:
-            if group:
-                offsets += records.summary_offset(opcode, start + len(summary), len(group))
-                summary += group
-        offsets_start = start + len(summary)
-        summary += offsets
-        foot = records.footer(bytes(summary), start, offsets_start)
-        return ended + bytes(summary) + foot + records.MAGIC
+        return records.end(data_end, groups)
 
     def _write_metadata(self) -> None:
         counts = BagCounts(

@@ -2,6 +2,7 @@
 
 ``claim_domain``         a free ROS_DOMAIN_ID, held while the context lasts
 ``process_environment``  what a run's processes inherit
+``player_environment``   what a replay adds to the user's own environment
 ``LOCALHOST_PROCESSES``  how many processes find each other by ROS's own range LOCALHOST
 """
 
@@ -16,7 +17,7 @@ from typing import IO
 
 from tlcomm_core.errors import InputError
 
-__all__ = ["LOCALHOST_PROCESSES", "claim_domain", "process_environment"]
+__all__ = ["LOCALHOST_PROCESSES", "claim_domain", "player_environment", "process_environment"]
 
 LOCALHOST_PROCESSES = 30
 _DOMAINS = range(1, 102)
@@ -25,7 +26,9 @@ _PORTS_PER_DOMAIN = 250
 _PROBED_PORTS = 24
 _RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 _PROFILES = "FASTRTPS_DEFAULT_PROFILES_FILE"
+_TRANSPORTS = "FASTDDS_BUILTIN_TRANSPORTS"
 _LOOPBACK = Path(__file__).with_name("loopback.xml")
+_PROMPT = Path(__file__).with_name("prompt.xml")
 
 
 @contextmanager
@@ -84,12 +87,22 @@ def process_environment(
         "ROS_LOG_DIR": str(log_folder / "ros"),
         "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
         # Without shared memory where the range allows it: a killed process would leave segments.
-        "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
+        _TRANSPORTS: "UDPv4",
         # One process computes on one core; the others have agents of their own.
         "OPENBLAS_NUM_THREADS": "1",
         "OMP_NUM_THREADS": "1",
         "PYTHONUNBUFFERED": "1",
     }
+
+
+def player_environment(inherited: Mapping[str, str]) -> dict[str, str]:
+    """Return what a replay adds to the user's environment, to be found by the user's own tools.
+
+    Domain, discovery and middleware are the user's. Added is only what the user hasn't chosen: no
+    shared memory, of which a killed process would leave segments, and prompt heartbeats.
+    """
+    added = {_TRANSPORTS: "UDPv4", _PROFILES: str(_PROMPT)}
+    return {name: value for name, value in added.items() if name not in inherited}
 
 
 def _lock(path: Path) -> IO[bytes] | None:

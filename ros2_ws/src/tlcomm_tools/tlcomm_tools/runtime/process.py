@@ -71,8 +71,8 @@ def _parser() -> argparse.ArgumentParser:
     for role in (agent, sim, recorder):
         role.add_argument("--scenario", required=True)
         role.add_argument("--seed", type=int, default=0)
-    for role in (agent, sim):
         role.add_argument("--pace", required=True)
+    for role in (agent, sim):
         role.add_argument("--recorder", action="store_true", help="wait for a recorder")
     for role in (agent, recorder):
         role.add_argument("--solver", required=True)
@@ -132,6 +132,7 @@ def _be_recorder(arguments: argparse.Namespace, notifier: Notifier) -> int:
         "method": arguments.method,
         "solver": arguments.solver,
         "seed": str(arguments.seed),
+        "pace": arguments.pace,
     }
     method = parse_method(arguments.method)
     settings = recorder.RecorderSettings(arguments.bag, scenario, method, notes)

@@ -95,6 +95,9 @@ def _format_audit(audit: Audit) -> str:
         format_table(("agent", "satisfied", "claimed", "longest gap/s", "task"), rows),
         "",
     ]
+    broken = [(name, str(len(lines))) for name, lines in audit.checks.items() if lines]
+    if broken:
+        parts += [format_table(("check", "violations"), broken), ""]
     if audit.note:
         parts.append(f"note: the bag was read only in part: {audit.note}")
     if not audit.violations:

@@ -32,7 +32,7 @@ def test_another_place_is_named() -> None:
     for index, own in enumerate(records.strategies):
         if own.strategy.round == 2:
             east, west = own.strategy.strategies
-            held = replace(own.strategy, strategies=(replace(east, x_m=4.25), west))
+            held = replace(own.strategy, strategies=(replace(east, x_m=3.25), west))
             records.strategies[index] = replace(own, strategy=held)
     scenario, end_ns = hand_made_scenario(), nanoseconds(25.0)
     assert audit_run(scenario, Method.STATIC, records, end_ns).violations == (

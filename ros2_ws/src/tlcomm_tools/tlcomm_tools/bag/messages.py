@@ -1,0 +1,84 @@
+"""Any of a bag's messages, decoded by the definitions inside.
+
+``BagMessage``     one of them
+``DecodedBag``     those on some topics
+``read_messages``  reads them
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from tlcomm_core.errors import InputError
+from tlcomm_tools.bag.container import Channel, Container, read_container
+from tlcomm_tools.bag.reader import find_files
+from tlcomm_tools.bag.topics import split_topic
+from tlcomm_tools.bag.typestore import make_typestore
+from tlcomm_tools.wire import DecodedMessage
+
+__all__ = ["BagMessage", "DecodedBag", "read_messages"]
+
+
+@dataclass(frozen=True, slots=True)
+class BagMessage:
+    """A message.
+
+    Attributes:
+        agent: whose topic it is on, or "".
+        topic: that topic's own name.
+        content: as decoded.
+    """
+
+    agent: str
+    topic: str
+    content: DecodedMessage
+
+
+@dataclass(frozen=True, slots=True)
+class DecodedBag:
+    """A bag's messages on some topics.
+
+    Attributes:
+        topics: all that the bag has, by name, with messages or without.
+        messages: in the order of its files.
+    """
+
+    topics: frozenset[str]
+    messages: tuple[BagMessage, ...]
+
+
+def read_messages(path: Path, wanted: Callable[[Channel], bool]) -> DecodedBag:
+    """Read a run folder, a bag folder or an MCAP file; a damaged one as far as it goes.
+
+    Args:
+        path: the folder or file.
+        wanted: which channels to decode.
+
+    Raises:
+        InputError: there is no bag, or a message can't be decoded.
+    """
+    topics: set[str] = set()
+    messages: list[BagMessage] = []
+    for file in find_files(path):
+        container = read_container(file, wanted)
+        topics.update(channel.topic for channel in container.channels.values())
+        messages += _decoded(file, container, wanted)
+        if container.damage:
+            break
+    return DecodedBag(frozenset(topics), tuple(messages))
+
+
+def _decoded(
+    file: Path, container: Container, wanted: Callable[[Channel], bool]
+) -> Iterator[BagMessage]:
+    try:
+        decode = make_typestore(filter(wanted, container.channels.values())).deserialize_cdr
+        for number, _, data in container.messages:
+            channel = container.channels[number]
+            agent, suffix = split_topic(channel.topic)
+            yield BagMessage(agent, suffix, decode(data, channel.type))
+    except InputError:
+        raise
+    except Exception as error:
+        # As in ``reader``: what a file's own definitions describe can fail in any way.
+        raise InputError(f"{str(file)!r} holds a message that can't be decoded: {error}") from error
