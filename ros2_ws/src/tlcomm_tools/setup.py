@@ -12,7 +12,9 @@ setup(
     author_email="maintainers@tlcomm.dev",
     license="Apache-2.0",
     packages=find_packages(include=[PACKAGE, f"{PACKAGE}.*"]),
-    package_data={PACKAGE: ["py.typed", "runtime/loopback.xml", "runtime/prompt.xml"]},
+    package_data={
+        PACKAGE: ["py.typed", "report/assets/*", "runtime/loopback.xml", "runtime/prompt.xml"]
+    },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
@@ -23,6 +25,7 @@ setup(
         "lz4",
         "matplotlib",
         "numpy",
+        "plotly",
         "pyyaml",
         "rosbags",
         "tlcomm_agent",

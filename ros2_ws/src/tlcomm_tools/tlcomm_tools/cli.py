@@ -27,6 +27,7 @@ VERBS: Final = {
     "ltl": "translate a formula into a Büchi automaton",
     "round": "show one round's problem and its solution",
     "check": "audit a run from its bag",
+    "report": "one page for a browser that shows a run",
     "replay": "publish a bag on ROS topics again, or verify its decisions",
     "repair": "finish a bag that was left unfinished",
     "compare": "the methods side by side: table, figures, CSV",

@@ -4,13 +4,11 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import Final
 
-from tlcomm_core.errors import InputError
 from tlcomm_core.method import Method
-from tlcomm_core.scenario.loader import load_scenario, loads
-from tlcomm_core.scenario.model import Scenario
 from tlcomm_tools.audit.findings import Audit, audit_run
 from tlcomm_tools.audit.tasks import TaskFinding
-from tlcomm_tools.bag.reader import RecordedRun, find_files, read_run
+from tlcomm_tools.bag.origin import find_method, find_scenario
+from tlcomm_tools.bag.reader import read_run
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_number, format_table
 from tlcomm_tools.verbs.options import print_json
@@ -39,8 +37,8 @@ def run(options: Namespace) -> Status:
     """Audit the run and show what was found."""
     recorded = read_run(options.run)
     audit = audit_run(
-        _find_scenario(options, recorded),
-        _find_method(options, recorded),
+        find_scenario(options.run, recorded, options.scenario),
+        find_method(options.run, recorded),
         recorded.records,
         recorded.end_ns,
         recorded.damage,
@@ -50,27 +48,6 @@ def run(options: Namespace) -> Status:
     else:
         print(_format_audit(audit))
     return Status.PROPERTY_FAILED if audit.violations else Status.FINE
-
-
-def _find_scenario(options: Namespace, recorded: RecordedRun) -> Scenario:
-    if options.scenario is not None:
-        return load_scenario(options.scenario)
-    if "scenario" in recorded.notes:
-        return loads(recorded.notes["scenario"], "the bag's scenario")
-    folder = find_files(options.run)[0].parent
-    for path in (folder / "scenario.yaml", folder.parent / "scenario.yaml"):
-        if path.is_file():
-            return load_scenario(path)
-    raise InputError(
-        f"{str(options.run)!r} says nothing of its scenario: give it with --scenario FILE"
-    )
-
-
-def _find_method(options: Namespace, recorded: RecordedRun) -> Method:
-    try:
-        return recorded.method
-    except InputError as error:
-        raise InputError(f"{str(options.run)!r}: {error}") from None
 
 
 def _format_audit(audit: Audit) -> str:

@@ -1,0 +1,49 @@
+"""What was run, as a bag says or as lies beside it.
+
+``find_scenario``  the scenario
+``find_method``    the method of coordination
+"""
+
+from pathlib import Path
+
+from tlcomm_core.errors import InputError
+from tlcomm_core.method import Method
+from tlcomm_core.scenario.loader import load_scenario, loads
+from tlcomm_core.scenario.model import Scenario
+from tlcomm_tools.bag.reader import RecordedRun, find_files
+
+__all__ = ["find_method", "find_scenario"]
+
+
+def find_scenario(path: Path, recorded: RecordedRun, given: Path | None) -> Scenario:
+    """Return the scenario given, else the bag's own, else ``scenario.yaml`` beside the bag.
+
+    Args:
+        path: where the run was read from.
+        recorded: the run.
+        given: the user's choice.
+
+    Raises:
+        InputError: there is none, or it is wrong.
+    """
+    if given is not None:
+        return load_scenario(given)
+    if "scenario" in recorded.notes:
+        return loads(recorded.notes["scenario"], "the bag's scenario")
+    folder = find_files(path)[0].parent
+    for file in (folder / "scenario.yaml", folder.parent / "scenario.yaml"):
+        if file.is_file():
+            return load_scenario(file)
+    raise InputError(f"{str(path)!r} says nothing of its scenario: give it with --scenario FILE")
+
+
+def find_method(path: Path, recorded: RecordedRun) -> Method:
+    """Return the method of a run.
+
+    Raises:
+        InputError: the bag names one that isn't known.
+    """
+    try:
+        return recorded.method
+    except InputError as error:
+        raise InputError(f"{str(path)!r}: {error}") from None
