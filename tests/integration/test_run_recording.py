@@ -16,7 +16,7 @@ from tlcomm_core.errors import InputError
 from tlcomm_core.scenario.loader import loads
 from tlcomm_tools.audit.findings import audit_run
 from tlcomm_tools.bag.reader import read_run
-from tlcomm_tools.bag.topics import recorded_topics
+from tlcomm_tools.bag.topics import mirror_topics, recorded_topics
 
 pytest.importorskip("rclpy", reason="needs ROS 2: run by scripts/test")
 
@@ -136,8 +136,11 @@ def test_every_topic_is_in_the_bag(finished: tuple[Path, str]) -> None:
         found = {own.topic: own.msgtype for own in reader.connections}
         counts = {own.topic: own.msgcount for own in reader.connections}
         duration_ns = reader.duration
-    assert found == {own.name: own.type for own in recorded_topics(AGENTS)}
+    topics = (*recorded_topics(AGENTS), *mirror_topics(AGENTS))
+    assert found == {own.name: own.type for own in topics}
     assert duration_ns > 90e9
+    last_s = duration_ns // 10**9
+    assert {counts[own.name] for own in mirror_topics(AGENTS)} == {1, last_s + 1, last_s // 2 + 1}
     assert counts["/clock"] == pytest.approx(duration_ns / 1e8, abs=2)
     assert min(counts[f"/{name}/cmd_vel"] for name in AGENTS) > 10
 

@@ -9,22 +9,25 @@ import pytest
 from ament_index_python.packages import get_package_share_directory
 from rclpy.context import Context
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
+from visualization_msgs.msg import MarkerArray
 
+from support.hand_made_run import AGENTS, hand_made_scenario
 from support.spinning import SpunNodes
 from tlcomm_agent import node as agent_node
+from tlcomm_core.method import Method
 from tlcomm_msgs import msg
 from tlcomm_sim import node as sim_node
 from tlcomm_tools.bag.container import read_container
 from tlcomm_tools.bag.definitions import load_typestore, read_definition
 from tlcomm_tools.bag.metadata import qos_text
-from tlcomm_tools.bag.topics import recorded_topics
+from tlcomm_tools.bag.topics import mirror_topics, recorded_topics
 from tlcomm_tools.bag.writer import BagWriter
+from tlcomm_tools.mirror.mirror import Mirror
 from tlcomm_tools.runtime import recorder
 from tlcomm_tools.runtime.notify import Failed, Note, Notifier, Started
 from tlcomm_tools.runtime.spin import spin
-
-AGENTS = ("one", "two")
 
 
 class Notes(Notifier):
@@ -68,12 +71,14 @@ class Recording(SpunNodes):
 
     def __init__(self, context: Context, folder: Path) -> None:
         store = load_typestore(Path(get_package_share_directory("tlcomm_msgs")))
-        topics = recorded_topics(AGENTS)
+        scenario, recorded = hand_made_scenario(), recorded_topics(AGENTS)
+        mirror = Mirror(scenario, Method.TEAM, recorded, store)
+        topics = (*recorded, *mirror.topics)
         definitions = {topic.type: read_definition(store, topic.type) for topic in topics}
         self.notes = Notes()
         self.writer = BagWriter(folder, topics, definitions, {})
-        settings = recorder.RecorderSettings(folder, AGENTS)
-        self.recorder = recorder.Recorder(settings, self.writer, self.notes, context)
+        settings = recorder.RecorderSettings(folder, scenario)
+        self.recorder = recorder.Recorder(settings, self.writer, mirror, self.notes, context)
         self.world = World(context)
         super().__init__(context, self.recorder, self.world.node)
 
@@ -118,6 +123,27 @@ def test_in_lock_step_the_bag_grows_at_answers_only(recording: Recording) -> Non
     assert recording.writer.path.stat().st_size > size
 
 
+def test_mirrors_are_there_for_viewers(recording: Recording) -> None:
+    """An answered tick shows the team; a viewer that comes later sees the regions as well."""
+    world, teams, regions = recording.world, [], []
+    world.node.create_subscription(MarkerArray, "/team_markers", teams.append, 10)
+    mirrors = recording.recorder._mirrors
+    recording.until(lambda: any(own.get_subscription_count() for own in mirrors))
+    world.tick()
+    world.clock_pub.publish(Clock())
+    world.clock_pub.publish(Clock())
+    recording.until(lambda: bool(teams))
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    world.node.create_subscription(MarkerArray, "/region_markers", regions.append, latched)
+    recording.until(lambda: bool(regions))
+    names = [marker.text for marker in regions[0].markers if marker.text]
+    assert names == ["left", "right"]
+    recording.writer.flush()
+    held = read_container(recording.writer.path, lambda _: True)
+    counts = {held.channels[number].topic: count for number, count in held.counts.items()}
+    assert counts["/team_markers"] == counts["/region_markers"] == 1
+
+
 def test_it_names_what_a_tick_waits_for(
     recording: Recording, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -158,16 +184,22 @@ def test_what_is_under_way_when_a_signal_comes_is_recorded(
         signal.raise_signal(signal.SIGINT)
         assert done()
 
-    settings = recorder.RecorderSettings(tmp_path / "bag", AGENTS)
+    settings = recorder.RecorderSettings(tmp_path / "bag", hand_made_scenario())
     assert recorder.run(settings, spin_after_signal, notes) == 0
     world.node.destroy_node()
     assert notes.told == [Started()]
     (path,) = (tmp_path / "bag").glob("*.mcap")
-    assert sum(read_container(path, lambda _: True).counts.values()) == 1
+    held = read_container(path, lambda _: True)
+    counts = {held.channels[number].topic: count for number, count in held.counts.items()}
+    assert counts.pop("/clock") == 1
+    assert {name for name, count in counts.items() if count} == {
+        topic.name for topic in mirror_topics(AGENTS)
+    }
 
 
 def test_a_bag_goes_nowhere_where_something_is(tmp_path: Path) -> None:
     """A bag that can't be made is bad input, told with its name."""
     notes = Notes()
-    assert recorder.run(recorder.RecorderSettings(tmp_path, AGENTS), spin, notes) == 2
+    settings = recorder.RecorderSettings(tmp_path, hand_made_scenario())
+    assert recorder.run(settings, spin, notes) == 2
     assert notes.told == [Failed(f"can't write {str(tmp_path)!r}: File exists", 2)]

@@ -18,6 +18,7 @@ setup(
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
+        (f"share/{PACKAGE}/config", ["config/tlcomm.rviz", "config/tlcomm.foxglove.json"]),
     ],
     python_requires=">=3.11",
     install_requires=[

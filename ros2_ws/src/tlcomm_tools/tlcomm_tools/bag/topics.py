@@ -2,6 +2,7 @@
 
 ``Topic``            a recorded topic
 ``recorded_topics``  all of them, for a team
+``mirror_topics``    what the recorder adds for other people's viewers
 ``split_topic``      whose a topic is
 ``TEAM_TOPICS``      the topics that agents talk on
 ``FIELD_TOPICS``     those that are there only if something is measured
@@ -10,7 +11,15 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-__all__ = ["AGENT_TOPICS", "FIELD_TOPICS", "TEAM_TOPICS", "Topic", "recorded_topics", "split_topic"]
+__all__ = [
+    "AGENT_TOPICS",
+    "FIELD_TOPICS",
+    "TEAM_TOPICS",
+    "Topic",
+    "mirror_topics",
+    "recorded_topics",
+    "split_topic",
+]
 
 AGENT_TOPICS = {
     "odom": "nav_msgs/msg/Odometry",
@@ -64,6 +73,21 @@ def recorded_topics(agents: Iterable[str], *, measures: bool = False) -> tuple[T
             Topic(f"/{agent}/{suffix}", type_name, agent, latched=suffix == _LATCHED)
             for agent in agents
             for suffix, type_name in suffixes.items()
+        ),
+    )
+
+
+def mirror_topics(agents: Iterable[str]) -> tuple[Topic, ...]:
+    """Return every topic that mirrors a run in standard messages."""
+    markers = "visualization_msgs/msg/MarkerArray"
+    return (
+        Topic("/region_markers", markers, latched=True),
+        Topic("/team_markers", markers),
+        Topic("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"),
+        *(
+            Topic(f"/{agent}/{suffix}", "nav_msgs/msg/Path", agent)
+            for agent in agents
+            for suffix in ("plan", "trail")
         ),
     )
 

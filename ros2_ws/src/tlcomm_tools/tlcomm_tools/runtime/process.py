@@ -14,6 +14,7 @@ from pathlib import Path
 from rclpy.parameter import Parameter
 
 from tlcomm_core.errors import InputError, PlanningError, TlcommError
+from tlcomm_core.method import parse_method
 from tlcomm_core.pace import parse_pace
 from tlcomm_core.units import seconds
 from tlcomm_tools.runtime.life import live
@@ -133,8 +134,8 @@ def _be_recorder(arguments: argparse.Namespace, notifier: Notifier) -> int:
         "seed": str(arguments.seed),
         "pace": arguments.pace,
     }
-    measures = scenario.field is not None
-    settings = recorder.RecorderSettings(arguments.bag, tuple(scenario.agents), measures, notes)
+    method = parse_method(arguments.method)
+    settings = recorder.RecorderSettings(arguments.bag, scenario, method, notes)
     return recorder.run(settings, spin, notifier)
 
 

@@ -8,6 +8,9 @@ In lock step it takes part like an agent: a tick says how many messages have bee
 answered only when all of them have arrived. So nothing can be missing without being noticed.
 Topics overtake each other; only at an answer does the bag hold all of them up to one time. So that
 is when it is brought into the file: a recording that breaks off ends at one time on all topics.
+
+Since it hears everything, it also makes the mirrors for other people's viewers, publishes them, and
+records them beside the rest.
 """
 
 import signal
@@ -28,11 +31,14 @@ from rclpy.parameter import Parameter
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 
+from tlcomm_core.method import Method
+from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import NANOSECONDS_PER_SECOND
 from tlcomm_msgs.msg import Tick, TickReply
 from tlcomm_tools.bag.definitions import load_typestore, read_definition
 from tlcomm_tools.bag.topics import Topic, recorded_topics
 from tlcomm_tools.bag.writer import BagWriter
+from tlcomm_tools.mirror.mirror import Mirror
 from tlcomm_tools.runtime.ledger import Expected, Ledger
 from tlcomm_tools.runtime.notify import Failed, Finished, Notifier, Ready, Started
 from tlcomm_tools.runtime.spin import Spin
@@ -60,15 +66,25 @@ class RecorderSettings:
 
     Attributes:
         bag: the bag's folder, which doesn't exist yet.
-        agents: in the scenario's order.
-        measures: whether agents measure anything.
+        scenario: what is run.
+        method: how.
         notes: what the bag says about the run besides its messages.
     """
 
     bag: Path
-    agents: tuple[str, ...]
-    measures: bool = False
+    scenario: Scenario
+    method: Method = Method.TEAM
     notes: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def agents(self) -> tuple[str, ...]:
+        """The agents' names, in the scenario's order."""
+        return tuple(self.scenario.agents)
+
+    @property
+    def topics(self) -> tuple[Topic, ...]:
+        """What is recorded, without the mirrors."""
+        return recorded_topics(self.agents, measures=self.scenario.field is not None)
 
 
 def run(settings: RecorderSettings, spin: Spin, notifier: Notifier) -> int:
@@ -76,15 +92,16 @@ def run(settings: RecorderSettings, spin: Spin, notifier: Notifier) -> int:
 
     A bag that can't be written any more is reported, and what was written stays readable.
     """
+    mirror = _make_mirror(settings)
     try:
-        writer = _open_bag(settings)
+        writer = _open_bag(settings, mirror)
     except OSError as error:
         reason = f"can't write {str(settings.bag)!r}: {error.strerror}"
         notifier.tell(Failed(reason, Status.BAD_INPUT))
         return Status.BAD_INPUT
     try:
         with writer:
-            is_over = _record(settings, writer, spin, notifier)
+            is_over = _record(settings, writer, mirror, spin, notifier)
     except OSError as error:
         reason = f"can't write {str(settings.bag)!r} any more: {error.strerror}"
         notifier.tell(Failed(reason, Status.BROKEN))
@@ -94,14 +111,20 @@ def run(settings: RecorderSettings, spin: Spin, notifier: Notifier) -> int:
     return 0
 
 
-def _open_bag(settings: RecorderSettings) -> BagWriter:
-    topics = recorded_topics(settings.agents, measures=settings.measures)
+def _make_mirror(settings: RecorderSettings) -> Mirror:
     store = load_typestore(Path(get_package_share_directory("tlcomm_msgs")))
-    definitions = {topic.type: read_definition(store, topic.type) for topic in topics}
+    return Mirror(settings.scenario, settings.method, settings.topics, store)
+
+
+def _open_bag(settings: RecorderSettings, mirror: Mirror) -> BagWriter:
+    topics = (*settings.topics, *mirror.topics)
+    definitions = {topic.type: read_definition(mirror.store, topic.type) for topic in topics}
     return BagWriter(settings.bag, topics, definitions, settings.notes)
 
 
-def _record(settings: RecorderSettings, writer: BagWriter, spin: Spin, notifier: Notifier) -> bool:
+def _record(
+    settings: RecorderSettings, writer: BagWriter, mirror: Mirror, spin: Spin, notifier: Notifier
+) -> bool:
     """Record; return whether the run came to its end.
 
     A signal ends the recording, but not at once: what the others said before they stopped is under
@@ -114,7 +137,7 @@ def _record(settings: RecorderSettings, writer: BagWriter, spin: Spin, notifier:
     }
     context = rclpy.Context()
     rclpy.init(context=context, signal_handler_options=SignalHandlerOptions.NO)
-    node = Recorder(settings, writer, notifier, context)
+    node = Recorder(settings, writer, mirror, notifier, context)
     try:
         notifier.tell(Started())
         spin(node, lambda: node.is_done or bool(signals))
@@ -122,6 +145,7 @@ def _record(settings: RecorderSettings, writer: BagWriter, spin: Spin, notifier:
         until_s = time.monotonic() + _DRAIN_S
         spin(node, lambda: node.is_done or node.is_quiet or time.monotonic() > until_s)
         node.say_what_is_missing()
+        node.mirror_the_rest()
     finally:
         node.destroy_node()
         rclpy.try_shutdown(context=context)
@@ -137,10 +161,11 @@ class Recorder(Node):
         self,
         settings: RecorderSettings,
         writer: BagWriter,
+        mirror: Mirror,
         notifier: Notifier,
         context: rclpy.Context,
     ) -> None:
-        """Subscribe to every recorded topic."""
+        """Subscribe to every recorded topic, and offer the mirrors."""
         super().__init__(
             _NAME,
             context=context,
@@ -154,14 +179,18 @@ class Recorder(Node):
         self._silent_periods = 0
         self._tick_since_s = 0.0
         self._writer = writer
+        self._mirror = mirror
+        self._clock_ns = -1
         self._notifier = notifier
         self._is_ready = False
         self._is_running = False
         self._tick: Tick | None = None
         self._is_ticked = False
-        topics = recorded_topics(settings.agents, measures=settings.measures)
+        topics = settings.topics
+        self._clock_number = [topic.name for topic in topics].index("/clock")
         self._ledger = Ledger(topics, settings.agents)
         self._recorded = [self._subscribe(number, topic) for number, topic in enumerate(topics)]
+        self._mirrors = [self._offer(topic) for topic in mirror.topics]
         self.create_subscription(Tick, f"{_NAME}/tick", self._on_tick, _qos(latched=False))
         self._replies = self.create_publisher(TickReply, "tick_reply", _qos(latched=False))
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -184,15 +213,24 @@ class Recorder(Node):
     def _missing(self, tick: Tick) -> str:
         return f"hasn't arrived: {self._ledger.describe_missing(_expected(tick))}"
 
-    def _subscribe(self, number: int, topic: Topic) -> Any:  # noqa: ANN401 - rclpy is untyped
-        package, _, name = topic.type.split("/")
-        message_type = getattr(import_module(f"{package}.msg"), name)
+    def mirror_the_rest(self) -> None:
+        """Mirror all up to the last time of the clock."""
+        self._show_mirrors(self._clock_ns)
 
+    def _show_mirrors(self, until_ns: int) -> None:
+        for number, stamp_ns, data in self._mirror.advance(until_ns):
+            self._writer.write(len(self._recorded) + number, stamp_ns, data)
+            self._mirrors[number].publish(data)
+
+    def _offer(self, topic: Topic) -> Any:  # noqa: ANN401 - rclpy is untyped
+        return self.create_publisher(_load_type(topic), topic.name, _qos(latched=topic.latched))
+
+    def _subscribe(self, number: int, topic: Topic) -> Any:  # noqa: ANN401 - as above
         def take(data: bytes) -> None:
             self._take(number, data)
 
         return self.create_subscription(
-            message_type, topic.name, take, _qos(latched=topic.latched), raw=True
+            _load_type(topic), topic.name, take, _qos(latched=topic.latched), raw=True
         )
 
     def _take(self, number: int, data: bytes) -> None:
@@ -200,7 +238,11 @@ class Recorder(Node):
             self.get_logger().warning(f"ignored: {len(data)} bytes are no message with a stamp")
             return
         seconds, nanoseconds = _STAMP.unpack_from(data, _STAMP_OFFSET)
-        self._writer.write(number, seconds * NANOSECONDS_PER_SECOND + nanoseconds, data)
+        stamp_ns = seconds * NANOSECONDS_PER_SECOND + nanoseconds
+        self._writer.write(number, stamp_ns, data)
+        self._mirror.take(number, stamp_ns, data)
+        if number == self._clock_number:
+            self._clock_ns = stamp_ns
         if not self._is_ticked:
             self._writer.flush_if_due()
         self._ledger.count(number)
@@ -220,6 +262,7 @@ class Recorder(Node):
         if not self._ledger.is_complete(_expected(tick)):
             return
         self._tick = None
+        self._show_mirrors(tick.time_ns)
         if tick.stop:
             self._writer.flush()
         else:
@@ -231,6 +274,8 @@ class Recorder(Node):
 
     def _on_timer(self) -> None:
         if not self._is_ticked:
+            # What is on its way for longer than that is shown a second later.
+            self._show_mirrors(self._clock_ns)
             self._writer.flush_if_due()
         self._silent_periods += 1
         if self._tick is not None and time.monotonic() > self._tick_since_s + _PATIENCE_S:
@@ -250,6 +295,11 @@ class Recorder(Node):
 
     def _reply(self, sequence: int) -> None:
         self._replies.publish(TickReply(agent=_NAME, sequence=sequence, ready=self._is_ready))
+
+
+def _load_type(topic: Topic) -> Any:  # noqa: ANN401 - as above
+    package, _, name = topic.type.split("/")
+    return getattr(import_module(f"{package}.msg"), name)
 
 
 def _expected(tick: Tick) -> Expected:
