@@ -74,6 +74,7 @@ class _Run:
 
     @classmethod
     def of(cls, scenario: Scenario, records: RunRecords, method: Method, end_ns: int) -> "_Run":
+        """Return it; the arguments are those of ``run_metrics``."""
         agreed = meetings(scenario, records)
         met = [own for own in agreed if method.has_meetings and own.took_place_by(seconds(end_ns))]
         settled_ns = nanoseconds(SETTLED_PERIODS * scenario.communication.period_s)

@@ -9,11 +9,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from tlcomm_core.errors import InputError
 from tlcomm_tools.bag.container import Channel, Container, read_container
 from tlcomm_tools.bag.reader import find_files
 from tlcomm_tools.bag.topics import split_topic
-from tlcomm_tools.bag.typestore import make_typestore
+from tlcomm_tools.bag.typestore import decoding, make_typestore
 from tlcomm_tools.wire import DecodedMessage
 
 __all__ = ["BagMessage", "DecodedBag", "read_messages"]
@@ -62,23 +61,16 @@ def read_messages(path: Path, wanted: Callable[[Channel], bool]) -> DecodedBag:
     for file in find_files(path):
         container = read_container(file, wanted)
         topics.update(channel.topic for channel in container.channels.values())
-        messages += _decoded(file, container, wanted)
+        with decoding(file):
+            messages += _decoded(container, wanted)
         if container.damage:
             break
     return DecodedBag(frozenset(topics), tuple(messages))
 
 
-def _decoded(
-    file: Path, container: Container, wanted: Callable[[Channel], bool]
-) -> Iterator[BagMessage]:
-    try:
-        decode = make_typestore(filter(wanted, container.channels.values())).deserialize_cdr
-        for number, _, data in container.messages:
-            channel = container.channels[number]
-            agent, suffix = split_topic(channel.topic)
-            yield BagMessage(agent, suffix, decode(data, channel.type))
-    except InputError:
-        raise
-    except Exception as error:
-        # As in ``reader``: what a file's own definitions describe can fail in any way.
-        raise InputError(f"{str(file)!r} holds a message that can't be decoded: {error}") from error
+def _decoded(container: Container, wanted: Callable[[Channel], bool]) -> Iterator[BagMessage]:
+    decode = make_typestore(filter(wanted, container.channels.values())).deserialize_cdr
+    for number, _, data in container.messages:
+        channel = container.channels[number]
+        agent, suffix = split_topic(channel.topic)
+        yield BagMessage(agent, suffix, decode(data, channel.type))

@@ -18,7 +18,7 @@ from tlcomm_core.records import RunRecords
 from tlcomm_tools import wire
 from tlcomm_tools.bag.container import Channel, Container, read_container
 from tlcomm_tools.bag.topics import TEAM_TOPICS, split_topic
-from tlcomm_tools.bag.typestore import make_typestore
+from tlcomm_tools.bag.typestore import decoding, make_typestore
 
 __all__ = ["RecordedRun", "find_files", "read_run"]
 
@@ -140,16 +140,8 @@ def _gather(path: Path, containers: list[Container]) -> RecordedRun:
     notes: dict[str, str] = {}
     for container in containers:
         notes.update(container.metadata.get("tlcomm", {}))
-        try:
+        with decoding(path):
             collected.take(container)
-        except InputError:
-            raise
-        except Exception as error:
-            # Decoders are made from the definitions that the file brings along, so a foreign or
-            # damaged one can fail in any way.
-            raise InputError(
-                f"{str(path)!r} holds a message that can't be decoded: {error}"
-            ) from error
     records = collected.records
     for entries in (records.odometry, records.connectivity, records.tasks, records.strategies):
         entries.sort(key=attrgetter("stamp_ns"))

@@ -9,11 +9,13 @@
 ``agreements``        what the agreed team strategies cost
 ``additional_times``  what rounds cost, by the results
 ``estimates``         what an agent took the field for
+``by_agent``          records, each agent's own
 """
 
 from bisect import bisect_right
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any, Final
+from typing import Any, Final, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +41,7 @@ from tlcomm_tools.figures.elements import (
 __all__ = [
     "additional_times",
     "agreements",
+    "by_agent",
     "estimates",
     "field",
     "ground",
@@ -292,3 +295,19 @@ def _thinned(samples: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _rounded(value: float) -> float:
     return round(value, _DIGITS)
+
+
+class _Owned(Protocol):
+    @property
+    def agent(self) -> str: ...
+
+
+_T = TypeVar("_T", bound=_Owned)
+
+
+def by_agent(scenario: Scenario, records: Iterable[_T]) -> dict[str, list[_T]]:
+    """Return what there is of each agent, in the scenario's order and the records'."""
+    owned = defaultdict[str, list[_T]](list)
+    for record in records:
+        owned[record.agent].append(record)
+    return {name: owned[name] for name in scenario.agents}

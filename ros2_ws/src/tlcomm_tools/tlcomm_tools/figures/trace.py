@@ -4,9 +4,8 @@
 ``TRACE_FORMAT``  its document's ``format``
 """
 
-from collections import defaultdict
 from collections.abc import Iterable, Mapping
-from typing import Any, Final, Literal, Protocol, Self, TypeVar
+from typing import Any, Final, Literal, Self
 
 from pydantic import ValidationError, model_validator
 
@@ -105,8 +104,8 @@ class Trace(Element):
             courses: how Φ came down in some rounds.
         """
         end_s: float = result["sim_s"]
-        odometry = _by_agent(scenario, records.odometry)
-        tasks = _by_agent(scenario, records.tasks)
+        odometry = reduction.by_agent(scenario, records.odometry)
+        tasks = reduction.by_agent(scenario, records.tasks)
         return cls(
             scenario=scenario.name,
             method=method,
@@ -125,7 +124,7 @@ class Trace(Element):
             courses=tuple(courses),
             estimates={
                 name: reduction.estimates(own)
-                for name, own in _by_agent(scenario, records.estimates).items()
+                for name, own in reduction.by_agent(scenario, records.estimates).items()
                 if own
             },
             field=reduction.field(scenario, end_s),
@@ -148,18 +147,3 @@ class Trace(Element):
     def to_json(self) -> str:
         """Return the trace as one line of JSON."""
         return self.model_dump_json()
-
-
-class _Owned(Protocol):
-    @property
-    def agent(self) -> str: ...
-
-
-_T = TypeVar("_T", bound=_Owned)
-
-
-def _by_agent(scenario: Scenario, records: Iterable[_T]) -> dict[str, list[_T]]:
-    owned = defaultdict[str, list[_T]](list)
-    for record in records:
-        owned[record.agent].append(record)
-    return {name: owned[name] for name in scenario.agents}

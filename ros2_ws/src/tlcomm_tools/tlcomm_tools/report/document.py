@@ -5,9 +5,8 @@
 """
 
 import math
-from collections import defaultdict
 from collections.abc import Iterable, Mapping
-from typing import Any, Final, Protocol, TypeVar
+from typing import Any, Final, Protocol
 
 from tlcomm_core.method import Method
 from tlcomm_core.metrics.run import run_metrics
@@ -83,8 +82,11 @@ def _ground(scenario: Scenario) -> dict[str, Any]:
 
 def _agents(scenario: Scenario, records: RunRecords, end_s: float) -> list[dict[str, Any]]:
     placed = filter(_is_placed, records.odometry)
-    odometry, tasks = _by_agent(scenario, placed), _by_agent(scenario, records.tasks)
-    estimates = _by_agent(scenario, records.estimates)
+    odometry, tasks = (
+        reduction.by_agent(scenario, placed),
+        reduction.by_agent(scenario, records.tasks),
+    )
+    estimates = reduction.by_agent(scenario, records.estimates)
     return [
         {
             "name": name,
@@ -110,21 +112,6 @@ class _Model(Protocol):
 
 def _dump(model: _Model | None) -> dict[str, Any] | None:
     return None if model is None else model.model_dump(mode="json")
-
-
-class _Owned(Protocol):
-    @property
-    def agent(self) -> str: ...
-
-
-_T = TypeVar("_T", bound=_Owned)
-
-
-def _by_agent(scenario: Scenario, records: Iterable[_T]) -> dict[str, list[_T]]:
-    owned = defaultdict[str, list[_T]](list)
-    for record in records:
-        owned[record.agent].append(record)
-    return {name: owned[name] for name in scenario.agents}
 
 
 def _finite(value: Any) -> Any:  # noqa: ANN401 - any part of a document
