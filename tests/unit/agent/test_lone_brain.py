@@ -50,6 +50,7 @@ def test_where_the_map_closes_its_plan_it_waits() -> None:
     agent.show_map((1.5, 0.0, 2.0, 2.0), (4.0, 0.0, 4.5, 2.0))
     agent.advance_to(61.0)
     assert agent.brain.next_need_s == math.inf
+    agent.act()
     agent.show_map()
     agent.advance_to(121.0)
     faults = [event for _, event in agent.events if event.kind is TaskEventKind.FAULT]

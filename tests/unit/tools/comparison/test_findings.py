@@ -105,6 +105,13 @@ def test_failures_are_rows_with_their_reason() -> None:
         assert "0 of 2 runs keep what their methods promise" in text
 
 
+def test_what_the_audit_finds_is_a_flaw() -> None:
+    """Also where the run itself says that all is well: the command's exit status goes by it."""
+    (job,) = jobs_of(replace(DESIGN, methods=(Method.TEAM,), seeds=1))
+    assert Row(job, result(1.0), SOUND, None).flaws == []
+    assert Row(job, result(1.0), {"verdict": ["three"]}, None).flaws == ["audit: three"]
+
+
 def test_the_csv_is_the_document() -> None:
     """Row by row, value by value; a sweep begins with its own column."""
     design = replace(DESIGN, sweep=Sweep("range", (1.0, 1.5)), seeds=2)
