@@ -17,6 +17,11 @@ from support.hand_made_run import hand_made_records, write_bag
         (("--start", "1e6"), "--start: 1e+06 s is after the end"),
         (("--topics", "a,,b"), "argument --topics: expected names of topics, A,B, not 'a,,b'"),
         (("--topics", "odd"), "has no topic '/odd'"),
+        (
+            ("--verify", "--rate", "3"),
+            "argument --rate: not with --verify, which publishes nothing",
+        ),
+        (("--verify", "--loop"), "argument --loop: not with --verify"),
     ],
 )
 def test_bad_options(

@@ -50,6 +50,9 @@ def test_a_difference_fails(
     assert "verdict: FAILED" in shown
     assert f"  - {changed.agent} at {changed.stamp_ns * 1e-9:.9f} s, cmd_vel" in shown
     assert "recorded 0.125, came out" in shown
+    assert main(["replay", "--verify", "--json", str(tmp_path)]) == Status.PROPERTY_FAILED
+    (flaw,) = json.loads(capsys.readouterr().out)["verdict"]
+    assert flaw in shown
 
 
 def test_what_cant_be_verified_is_refused(

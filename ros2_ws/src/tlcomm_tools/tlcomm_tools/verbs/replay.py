@@ -9,6 +9,7 @@ from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from pathlib import Path
 from typing import Final
 
+from tlcomm_core.errors import InputError
 from tlcomm_core.units import seconds
 from tlcomm_tools.replay.keyboard import open_keyboard
 from tlcomm_tools.replay.script import read_script
@@ -20,6 +21,9 @@ __all__ = ["EXAMPLE", "add_arguments", "run"]
 
 EXAMPLE: Final = "tlcomm replay runs/plant-team-20260101-120000 --rate 10"
 
+_RATE: Final = 1.0
+_WAIT_S: Final = 2.0
+
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the verb's arguments."""
@@ -29,7 +33,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--rate",
         type=positive_float,
-        default=1.0,
+        default=_RATE,
         metavar="X",
         help="seconds of the bag per second (default: %(default)s)",
     )
@@ -50,7 +54,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--wait",
         type=not_negative_float,
-        default=2.0,
+        default=_WAIT_S,
         metavar="S",
         help="wait at most S seconds for the first subscriber (default: %(default)s)",
     )
@@ -65,6 +69,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(options: Namespace) -> Status:
     """Replay the bag and say what was published; or verify it."""
     if options.verify:
+        _refuse_playing(options)
         return verify_run(options.run, as_json=options.json)
     script = read_script(options.run, options.topics, options.start)
     # ROS is loaded only when there is something to replay.
@@ -97,6 +102,20 @@ def run(options: Namespace) -> Status:
             f"in {wall_s:.1f} s"
         )
     return Status.FINE
+
+
+def _refuse_playing(options: Namespace) -> None:
+    """Refuse to be told how to publish where nothing is published."""
+    told = {
+        "--rate": options.rate != _RATE,
+        "--start": options.start > 0.0,
+        "--topics": options.topics is not None,
+        "--loop": options.loop,
+        "--wait": options.wait != _WAIT_S,
+    }
+    for name, is_told in told.items():
+        if is_told:
+            raise InputError(f"argument {name}: not with --verify, which publishes nothing")
 
 
 def _tell(line: str) -> None:

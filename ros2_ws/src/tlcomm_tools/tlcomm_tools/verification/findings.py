@@ -73,7 +73,7 @@ class Verification:
             },
             "difference": None if found is None else found.document(),
             "note": self.note or None,
-            "verdict": "ok" if found is None else str(found),
+            "verdict": "ok" if found is None else [str(found)],
         }
 
 
