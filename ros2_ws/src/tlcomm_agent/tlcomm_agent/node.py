@@ -26,6 +26,7 @@ from rclpy.serialization import deserialize_message
 from tlcomm_agent import tasking, wire, wire_map, wire_messages
 from tlcomm_agent.arrivals import Arrivals
 from tlcomm_agent.config import PARAMETERS, AgentConfig
+from tlcomm_agent.hearing import Hearings
 from tlcomm_agent.wire_fields import WireError
 from tlcomm_core.agent import actions
 from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
@@ -52,7 +53,7 @@ _STATUS_INPUT: Final = 2
 _STATUS_BROKEN: Final = 3
 
 
-class _Hearing(ReentrantCallbackGroup):
+class _Attention(ReentrantCallbackGroup):
     """Another agent's messages, taken while there is a point in it."""
 
     def __init__(self, other: str, attended: Callable[[], Container[str]]) -> None:
@@ -124,8 +125,9 @@ class AgentNode(Node):
         )
         self._timed: Final = TimedMember(self._member, time.thread_time, time.time)
         self._taken: Final[Counter[str]] = Counter()
-        latency_s = self.config.scenario.communication.hop_latency_s
-        self._arrivals: Final = Arrivals(self.config.others, nanoseconds(latency_s))
+        latency_ns = nanoseconds(config.scenario.communication.hop_latency_s)
+        self._arrivals: Final = Arrivals(config.others, latency_ns)
+        self._hearings: Final = Hearings(config.name)
         self._tick: msg.Tick | None = None
         self._published: Final[Counter[str]] = Counter()
         self._is_ready = False
@@ -190,7 +192,7 @@ class AgentNode(Node):
             f"/{other}/{topic}",
             take,
             _COUNTED if self._is_lockstep else _BY_RADIO,
-            callback_group=_Hearing(other, lambda: self._attended),
+            callback_group=_Attention(other, lambda: self._attended),
             raw=True,
         )
 
@@ -253,10 +255,8 @@ class AgentNode(Node):
         if message.sender != other:
             self._ignore(f"{other}: a message in the name of {message.sender!r}")
             return sent_ns
-        if not self._is_lockstep:
-            # The sender's clock may be a tick ahead of this one's; what was heard was said before.
-            sent_ns = min(sent_ns, self._now_ns())
-        self._member.receive(message, sent_ns)
+        # Running freely, the sender's clock may be a tick ahead of this one's.
+        self._member.receive(message, sent_ns, None if self._is_lockstep else self._now_ns())
         return sent_ns
 
     def _take_tick(self, tick: msg.Tick) -> None:
@@ -285,6 +285,7 @@ class AgentNode(Node):
         """Act no more; stay until the sim has gone, to send again what somebody has missed."""
         self._is_stopped = True
         self._publish_undelivered(tick.time_ns)
+        self._publish("hearing", wire.encode_hearing(self._hearings.take(), tick.time_ns))
         self._answer(tick.sequence)
         self.create_timer(_LEAVE_PERIOD_S, self._leave_after_sim, clock=self._steady)
 
@@ -318,6 +319,8 @@ class AgentNode(Node):
             self._perform(action, now_ns)
         if timing is not None:
             self._publish("round_timing", wire.encode_round_timing(timing, now_ns))
+        if self._hearings.note(self._member.heard, now_ns):
+            self._publish("hearing", wire.encode_hearing(self._hearings.take(), now_ns))
         has_met = self._member.meetings_ended != meetings_ended
         if has_met:
             self._publish_undelivered(now_ns)

@@ -44,7 +44,8 @@ def test_fresh_brains_do_what_was_recorded(scenario: Scenario, rounds: int, meth
     assert found.difference is None
     records = recording.run.records
     done = [recording.said, recording.commanded, records.tasks, records.strategies]
-    assert sum(own.outputs for own in found.agents) == sum(map(len, [*done, records.estimates]))
+    done += [records.estimates, records.heard]
+    assert sum(own.outputs for own in found.agents) == sum(map(len, done))
     assert found.document()["verdict"] == "ok"
     assert found.sim_s == seconds(recording.end_ns)
 

@@ -2,17 +2,19 @@
 
 ``find_scenario``  the scenario
 ``find_method``    the method of coordination
+``find_pace``      how simulated time went on
 """
 
 from pathlib import Path
 
 from tlcomm_core.errors import InputError
 from tlcomm_core.method import Method
+from tlcomm_core.pace import Pace
 from tlcomm_core.scenario.loader import load_scenario, loads
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_tools.bag.reader import RecordedRun, find_files
 
-__all__ = ["find_method", "find_scenario"]
+__all__ = ["find_method", "find_pace", "find_scenario"]
 
 
 def find_scenario(path: Path, recorded: RecordedRun, given: Path | None) -> Scenario:
@@ -45,5 +47,17 @@ def find_method(path: Path, recorded: RecordedRun) -> Method:
     """
     try:
         return recorded.method
+    except InputError as error:
+        raise InputError(f"{str(path)!r}: {error}") from None
+
+
+def find_pace(path: Path, recorded: RecordedRun) -> Pace | None:
+    """Return how simulated time went on; ``None`` if the bag doesn't say.
+
+    Raises:
+        InputError: the bag names a pace that is none.
+    """
+    try:
+        return recorded.pace
     except InputError as error:
         raise InputError(f"{str(path)!r}: {error}") from None

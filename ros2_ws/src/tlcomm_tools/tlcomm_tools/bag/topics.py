@@ -4,6 +4,7 @@
 ``recorded_topics``  all of them, for a team
 ``mirror_topics``    what the recorder adds for other people's viewers
 ``split_topic``      whose a topic is
+``OPTIONAL_TOPICS``  those that bags from before them lack
 ``TEAM_TOPICS``      the topics that agents talk on
 ``FIELD_TOPICS``     those that are there only if something is measured
 """
@@ -14,6 +15,7 @@ from dataclasses import dataclass
 __all__ = [
     "AGENT_TOPICS",
     "FIELD_TOPICS",
+    "OPTIONAL_TOPICS",
     "TEAM_TOPICS",
     "Topic",
     "mirror_topics",
@@ -33,12 +35,14 @@ AGENT_TOPICS = {
     "estimate": "tlcomm_msgs/msg/Estimate",
     "round_timing": "tlcomm_msgs/msg/RoundTiming",
     "undelivered": "tlcomm_msgs/msg/Undelivered",
+    "hearing": "tlcomm_msgs/msg/Hearing",
 }
 FIELD_TOPICS = {
     "reading": "tlcomm_msgs/msg/Reading",
     "estimate_exchange": "tlcomm_msgs/msg/EstimateExchange",
 }
 TEAM_TOPICS = ("plan_offer", "proposal", "best_response", "confirmation", "estimate_exchange")
+OPTIONAL_TOPICS = ("hearing",)
 _LATCHED = "team_strategy"
 
 
