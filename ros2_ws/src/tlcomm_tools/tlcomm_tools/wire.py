@@ -13,6 +13,8 @@ They need no ROS.
 import math
 from typing import Any
 
+import numpy as np
+
 from tlcomm_core.agent.actions import TaskEvent, TaskEventKind
 from tlcomm_core.agent.timing import RoundTiming
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
@@ -121,9 +123,10 @@ def read_undelivered(message: DecodedMessage) -> dict[str, int]:
 def read_hearing(message: DecodedMessage, agent: str) -> list[HeardRecord]:
     """Read a ``tlcomm_msgs/Hearing`` of this agent."""
     columns = (message.heard, message.sender, message.topic, message.said)
+    rows = zip(*(np.asarray(column).tolist() for column in columns), strict=True)
     return [
-        HeardRecord(int(heard_ns), agent, message.agents[who], TEAM_TOPICS[what], int(said_ns))
-        for heard_ns, who, what, said_ns in zip(*columns, strict=True)
+        HeardRecord(heard_ns, agent, message.agents[who], TEAM_TOPICS[what], said_ns)
+        for heard_ns, who, what, said_ns in rows
     ]
 
 
