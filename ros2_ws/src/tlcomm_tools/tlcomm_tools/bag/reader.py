@@ -14,10 +14,11 @@ import yaml
 
 from tlcomm_core.errors import InputError
 from tlcomm_core.method import Method, parse_method
+from tlcomm_core.protocol.topics import TEAM_TOPICS
 from tlcomm_core.records import RunRecords
 from tlcomm_tools import wire
 from tlcomm_tools.bag.container import Channel, Container, read_container
-from tlcomm_tools.bag.topics import TEAM_TOPICS, split_topic
+from tlcomm_tools.bag.topics import split_topic
 from tlcomm_tools.bag.typestore import decoding, make_typestore
 
 __all__ = ["RecordedRun", "find_files", "read_run"]
