@@ -26,6 +26,7 @@ from rclpy.serialization import deserialize_message
 from tlcomm_agent import tasking, wire, wire_map, wire_messages
 from tlcomm_agent.arrivals import Arrivals
 from tlcomm_agent.config import PARAMETERS, AgentConfig
+from tlcomm_agent.ignored import Ignored
 from tlcomm_core.agent import actions
 from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
 from tlcomm_core.agent.member import create
@@ -48,7 +49,6 @@ _HELD_STRATEGIES: Final = 10
 _HELD: Final = QoSProfile(depth=_HELD_STRATEGIES, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _READY_PERIOD_S: Final = 0.1
 _LEAVE_PERIOD_S: Final = 0.05
-_MOST_REASONS: Final = 100
 _STATUS_INPUT: Final = 2
 _STATUS_BROKEN: Final = 3
 
@@ -113,7 +113,7 @@ class AgentNode(Node):
         )
         self.config: Final = AgentConfig.from_parameters(self.get_namespace(), self._declared)
         self.is_done = False
-        self.ignored: Final[Counter[str]] = Counter()
+        self.ignored: Final = Ignored()
         self._on_ready: Final = on_ready
         self._is_lockstep: Final = self.config.pace.is_lockstep
         pacing = Pacing.EVENT if self._is_lockstep else Pacing.PERIODIC
@@ -372,11 +372,8 @@ class AgentNode(Node):
         self.get_logger().info(f"done; ignored: {dict(self.ignored)}")
 
     def _ignore(self, reason: str) -> None:
-        if reason not in self.ignored and len(self.ignored) >= _MOST_REASONS:
-            reason = "further reasons"
-        self.ignored[reason] += 1
-        if self.ignored[reason] == 1:
-            self.get_logger().warning(f"ignored: {reason}")
+        if (news := self.ignored.note(reason)) is not None:
+            self.get_logger().warning(f"ignored: {news}")
 
 
 def main(args: Sequence[str] | None = None) -> int:
