@@ -84,12 +84,17 @@ class RunReport:
     failure: RunFailed | None
 
 
-def run_mission(options: RunOptions, on_progress: Callable[[float, int], None]) -> RunReport:
+def run_mission(
+    options: RunOptions,
+    on_progress: Callable[[float, int], None],
+    tell: Callable[[str], None] = lambda _: None,
+) -> RunReport:
     """Run a scenario with a process per agent; write its results, whatever happens.
 
     Args:
         options: what to run.
         on_progress: called with the simulated time (s) and the number of meetings that have ended.
+        tell: is told what a user should know meanwhile, a line at a time, by another thread too.
 
     Raises:
         InputError: the folder can't be used, or the processes are too many for this machine.
@@ -108,6 +113,7 @@ def run_mission(options: RunOptions, on_progress: Callable[[float, int], None]) 
     specs = _specs(options, folder)
     begun_s = time.monotonic()
     with claim_domain() as domain:
+        tell(f"ROS domain {domain}")
         environment = process_environment(os.environ, domain, folder.logs.absolute(), len(specs))
         outcome = run_processes(specs, environment, note)
     wall_s = time.monotonic() - begun_s

@@ -60,7 +60,7 @@ def run_scenario(scenario: Scenario, options: Namespace) -> Status:
         out=options.out,
     )
     with Progress.towards(rounds, limit_s, options.method) as progress:
-        report = run_mission(what, progress.show)
+        report = run_mission(what, progress.show, lambda line: progress.tell(f"tlcomm: {line}"))
     if options.json:
         print_json({**report.result, "folder": str(report.folder.path)})
     else:
