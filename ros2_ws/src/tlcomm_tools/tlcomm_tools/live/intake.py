@@ -11,6 +11,7 @@ import struct
 from collections.abc import Callable, Sequence
 from typing import Final
 
+from rosbags.serde import SerdeError
 from rosbags.typesys.store import Typestore
 
 from tlcomm_core.errors import InputError
@@ -88,7 +89,7 @@ class Intake:
         """Take a message; one that makes no sense shows nothing."""
         number, data = heard
         topic = self._topics[number]
-        with contextlib.suppress(InputError, ValueError):
+        with contextlib.suppress(InputError, SerdeError, ValueError):
             self._takers[number](self._store.deserialize_cdr(data, topic.type), topic.agent)
 
     def _take_clock(self, message: wire.DecodedMessage, _: str) -> None:
