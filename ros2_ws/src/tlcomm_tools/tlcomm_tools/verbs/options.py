@@ -5,6 +5,7 @@
 ``add_pace_argument``      how simulated time goes on
 ``add_seed_argument``      what chance is drawn from
 ``add_solver_argument``    how rounds are solved
+``add_view_argument``      whether a browser can look on
 ``positive_int``, ``not_negative_int``, ``positive_float``, ``positive_fraction``   types
 ``not_negative_float``, ``share``, ``seed``, ``team_size``   more types
 ``pace``, ``method``, ``solver``  more types
@@ -32,6 +33,7 @@ __all__ = [
     "add_recorded_arguments",
     "add_seed_argument",
     "add_solver_argument",
+    "add_view_argument",
     "method",
     "mission_end",
     "not_negative_float",
@@ -233,6 +235,15 @@ def add_pace_argument(parser: argparse.ArgumentParser) -> None:
         default=Pace(None),
         metavar="lockstep|FACTOR",
         help="in lock step (the default), or at a factor of real time",
+    )
+
+
+def add_view_argument(parser: argparse.ArgumentParser) -> None:
+    """Add whether a browser can look on."""
+    parser.add_argument(
+        "--view",
+        action="store_true",
+        help="serve a page on this machine that shows the run as it goes on",
     )
 
 
