@@ -64,7 +64,7 @@ def audit_hearing(evidence: Evidence, pace: Pace | None) -> Iterator[str]:
         evidence: the run.
         pace: whether it was in lock step; ``None`` if that isn't known, and nothing is audited.
 
-    Cost: 1 s for a million messages.
+    Cost: about 2 µs for each message.
     """
     if pace is None:
         return

@@ -51,7 +51,8 @@ class Proximity:
 
     def distances_m(self, times_s: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return how far they were from each other at these times."""
-        return np.hypot(*(self.one.at(times_s) - self.other.at(times_s)).T)
+        apart_m = self.one.at(times_s) - self.other.at(times_s)
+        return np.hypot(apart_m[:, 0], apart_m[:, 1])
 
     def linked_at(self, times_s: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Tell at which times they were in range, and in sight if need be."""

@@ -16,11 +16,12 @@ from rosbags.typesys.store import Typestore
 from tlcomm_core.errors import InputError
 from tlcomm_core.method import Method, parse_method
 from tlcomm_core.pace import Pace, parse_pace
+from tlcomm_core.protocol.topics import TEAM_TOPICS
 from tlcomm_core.records import RunRecords, SaidRecord
 from tlcomm_tools import wire
 from tlcomm_tools.bag.container import Channel, Container, read_container
 from tlcomm_tools.bag.stamps import stamp_reader
-from tlcomm_tools.bag.topics import AGENT_TOPICS, FIELD_TOPICS, TEAM_TOPICS, split_topic
+from tlcomm_tools.bag.topics import AGENT_TOPICS, FIELD_TOPICS, split_topic
 from tlcomm_tools.bag.typestore import decoding, make_typestore
 
 __all__ = ["RecordedRun", "find_files", "read_run"]
@@ -46,7 +47,8 @@ class RecordedRun:
     Attributes:
         records: the run.
         agents: as the bag's connectivity messages list them, or else sorted.
-        end_ns: the last time recorded.
+        end_ns: the last time that anything in it is of, by the messages' own stamps: when a message
+            was logged is another clock's time in others' bags.
         notes: what the recorder wrote about the run (scenario, method, solver, seed, pace); empty
             in others' bags.
         damage: why reading ended early, or "".
@@ -176,7 +178,7 @@ def _gather(path: Path, containers: list[Container]) -> RecordedRun:
     return RecordedRun(
         records=records,
         agents=collected.agents or tuple(sorted(records.messages_sent)),
-        end_ns=max((held.end_ns for held in containers if held.end_ns is not None), default=0),
+        end_ns=collected.end_ns,
         notes=notes,
         damage=next((held.damage for held in containers if held.damage), ""),
     )
@@ -188,17 +190,20 @@ class _Collected:
     def __init__(self) -> None:
         self.records = RunRecords()
         self.agents: tuple[str, ...] = ()
+        self.end_ns = 0
 
     def take(self, container: Container) -> None:
         """Decode a container's messages; count and measure what was said."""
         store = make_typestore(filter(_is_wanted, container.channels.values()))
-        takers = {
-            number: self._taker(channel, store)
-            for number, channel in container.channels.items()
-            if _is_wanted(channel)
+        wanted = {
+            number: channel for number, channel in container.channels.items() if _is_wanted(channel)
         }
+        takers = {number: self._taker(channel, store) for number, channel in wanted.items()}
+        stamps = {number: stamp_reader(store, channel.type) for number, channel in wanted.items()}
         for number, _, data in container.messages:
-            takers[number](data)
+            stamp_ns = stamps[number](data)
+            self.end_ns = max(self.end_ns, stamp_ns)
+            takers[number](data, stamp_ns)
         for number, channel in container.channels.items():
             self._count(channel, self.records.messages_sent, container.counts.get(number, 0))
             self._count(channel, self.records.bytes_sent, container.lengths.get(number, 0))
@@ -211,15 +216,15 @@ class _Collected:
         elif agent and suffix == "odom":
             sent.setdefault(agent, 0)
 
-    def _taker(self, channel: Channel, store: Typestore) -> Callable[[bytes], None]:
-        """Return what takes a message of the channel, as it is stored."""
+    def _taker(self, channel: Channel, store: Typestore) -> Callable[[bytes, int], None]:
+        """Return what takes a message of the channel, as it is stored, and its stamp (ns)."""
         agent, suffix = split_topic(channel.topic)
         if _is_said(channel):
-            stamp, said = stamp_reader(store, channel.type), self.records.said
-            return lambda data: said.append(SaidRecord(stamp(data), agent, suffix))
+            said = self.records.said
+            return lambda _, stamp_ns: said.append(SaidRecord(stamp_ns, agent, suffix))
         decode, kind = store.deserialize_cdr, channel.type
         take = self._decoded_taker(agent, suffix)
-        return lambda data: take(decode(data, kind))
+        return lambda data, _: take(decode(data, kind))
 
     def _decoded_taker(self, agent: str, suffix: str) -> Callable[[wire.DecodedMessage], None]:
         records = self.records

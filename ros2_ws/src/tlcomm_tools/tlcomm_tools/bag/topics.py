@@ -5,7 +5,6 @@
 ``mirror_topics``    what the recorder adds for other people's viewers
 ``split_topic``      whose a topic is
 ``OPTIONAL_TOPICS``  those that bags from before them lack
-``TEAM_TOPICS``      the topics that agents talk on
 ``FIELD_TOPICS``     those that are there only if something is measured
 """
 
@@ -16,7 +15,6 @@ __all__ = [
     "AGENT_TOPICS",
     "FIELD_TOPICS",
     "OPTIONAL_TOPICS",
-    "TEAM_TOPICS",
     "Topic",
     "mirror_topics",
     "recorded_topics",
@@ -41,7 +39,6 @@ FIELD_TOPICS = {
     "reading": "tlcomm_msgs/msg/Reading",
     "estimate_exchange": "tlcomm_msgs/msg/EstimateExchange",
 }
-TEAM_TOPICS = ("plan_offer", "proposal", "best_response", "confirmation", "estimate_exchange")
 OPTIONAL_TOPICS = ("hearing",)
 _LATCHED = "team_strategy"
 
