@@ -26,7 +26,7 @@ from rclpy.serialization import deserialize_message
 from tlcomm_agent import tasking, wire, wire_map, wire_messages
 from tlcomm_agent.arrivals import Arrivals
 from tlcomm_agent.config import PARAMETERS, AgentConfig
-from tlcomm_agent.wire_fields import WireError
+from tlcomm_agent.ignored import Ignored
 from tlcomm_core.agent import actions
 from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
 from tlcomm_core.agent.member import create
@@ -34,6 +34,8 @@ from tlcomm_core.agent.timing import TimedMember
 from tlcomm_core.errors import InputError, PlanningError, TlcommError
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds
+from tlcomm_core.wire.fields import WireError
+from tlcomm_core.wire.team_messages import decode_message
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_msgs import msg, srv
 
@@ -47,7 +49,6 @@ _HELD_STRATEGIES: Final = 10
 _HELD: Final = QoSProfile(depth=_HELD_STRATEGIES, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _READY_PERIOD_S: Final = 0.1
 _LEAVE_PERIOD_S: Final = 0.05
-_MOST_REASONS: Final = 100
 _STATUS_INPUT: Final = 2
 _STATUS_BROKEN: Final = 3
 
@@ -112,7 +113,7 @@ class AgentNode(Node):
         )
         self.config: Final = AgentConfig.from_parameters(self.get_namespace(), self._declared)
         self.is_done = False
-        self.ignored: Final[Counter[str]] = Counter()
+        self.ignored: Final = Ignored()
         self._on_ready: Final = on_ready
         self._is_lockstep: Final = self.config.pace.is_lockstep
         pacing = Pacing.EVENT if self._is_lockstep else Pacing.PERIODIC
@@ -180,7 +181,7 @@ class AgentNode(Node):
 
     def _subscribe_team(self, other: str, topic: str, kind: type) -> Any:  # noqa: ANN401 (opaque)
         def take(data: bytes) -> None:
-            sent_ns = self._hear(other, kind, data)
+            sent_ns = self._hear(other, topic, data)
             if self._is_lockstep:
                 self._arrivals.note(other, sent_ns)
             self._proceed()
@@ -237,13 +238,14 @@ class AgentNode(Node):
             awaited = self._member.awaited
             self._attended = self._neighbours if awaited is None else (awaited,)
 
-    def _hear(self, other: str, kind: type, data: bytes) -> int:
+    def _hear(self, other: str, topic: str, data: bytes) -> int:
         """Take what another agent's topic carries, whatever that is; return when it was sent.
 
         What can't be read counts as sent at the start, so that nobody waits for it.
         """
+        kind = self._team_types[topic]
         try:
-            message, sent_ns = wire_messages.decode_message(deserialize_message(data, kind))
+            message, sent_ns = decode_message(deserialize_message(data, kind), topic)
         except WireError as error:
             self._ignore(f"{other}: {error}")
             return 0
@@ -370,11 +372,8 @@ class AgentNode(Node):
         self.get_logger().info(f"done; ignored: {dict(self.ignored)}")
 
     def _ignore(self, reason: str) -> None:
-        if reason not in self.ignored and len(self.ignored) >= _MOST_REASONS:
-            reason = "further reasons"
-        self.ignored[reason] += 1
-        if self.ignored[reason] == 1:
-            self.get_logger().warning(f"ignored: {reason}")
+        if (news := self.ignored.note(reason)) is not None:
+            self.get_logger().warning(f"ignored: {news}")
 
 
 def main(args: Sequence[str] | None = None) -> int:

@@ -17,15 +17,8 @@ from typing import Any, Final
 
 from geometry_msgs.msg import TwistStamped
 
-from tlcomm_agent.wire_fields import (
-    WireError,
-    decode_stamp,
-    finite,
-    header,
-    names,
-    time,
-)
-from tlcomm_agent.wire_messages import encode_message, encode_strategy, topic_of
+from tlcomm_agent.wire_fields import header, time
+from tlcomm_agent.wire_messages import encode_message, encode_strategy
 from tlcomm_core.agent.actions import (
     Drive,
     ReportEstimate,
@@ -38,7 +31,10 @@ from tlcomm_core.agent.timing import RoundTiming
 from tlcomm_core.game.strategy import TeamStrategy
 from tlcomm_core.geometry import Pose, yaw_from_quaternion
 from tlcomm_core.protocol.actions import HoldStrategy, SendMessage
+from tlcomm_core.protocol.topics import topic_of
 from tlcomm_core.units import NANOSECONDS_PER_SECOND
+from tlcomm_core.wire import world_messages
+from tlcomm_core.wire.fields import WireError, decode_stamp, finite, names
 from tlcomm_core.world.observation import Odometry
 from tlcomm_msgs import msg
 
@@ -236,7 +232,8 @@ def decode_reading(message: _RosMessage, agent: str) -> tuple[int, float]:
     """
     if message.agent != agent:
         raise WireError(f"agent: a reading of {message.agent!r}")
-    return decode_stamp(message.header.stamp), finite(message.value, "value")
+    reading = world_messages.decode_reading(message)
+    return reading.stamp_ns, reading.value
 
 
 def _wall_ns(time_s: float) -> int:

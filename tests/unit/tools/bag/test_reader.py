@@ -91,7 +91,10 @@ def test_run_folder_bag_folder_and_file_are_the_same(tmp_path: Path) -> None:
 
 
 def test_a_bag_of_another_writer(tmp_path: Path) -> None:
-    """A bag made by the rosbags library, without our notes, gives the same records."""
+    """A bag made by the rosbags library, without our notes, gives the same records.
+
+    It logs when messages came in, by the wall clock; the run ends by the messages' own stamps.
+    """
     records = hand_made_records()
     store = load_typestore(SHARE)
     with Writer(tmp_path / "bag", version=9, storage_plugin=StoragePlugin.MCAP) as writer:
@@ -99,11 +102,12 @@ def test_a_bag_of_another_writer(tmp_path: Path) -> None:
             topic.name: writer.add_connection(topic.name, topic.type, typestore=store)
             for topic in recorded_topics(AGENTS)
         }
-        for name, stamp_ns, data in serialize_run(store, records):
-            writer.write(connections[name], stamp_ns, data)
+        for number, (name, _, data) in enumerate(serialize_run(store, records)):
+            writer.write(connections[name], 1_800_000_000_000_000_000 + number, data)
     run = read_run(tmp_path / "bag")
     assert_equal(run.records, records)
     assert run.notes == {}
+    assert run.end_ns == 25_000_000_000
 
 
 def test_a_bag_in_several_files(tmp_path: Path) -> None:

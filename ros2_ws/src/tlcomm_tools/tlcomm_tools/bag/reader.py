@@ -14,10 +14,11 @@ import yaml
 
 from tlcomm_core.errors import InputError
 from tlcomm_core.method import Method, parse_method
+from tlcomm_core.protocol.topics import TEAM_TOPICS
 from tlcomm_core.records import RunRecords
 from tlcomm_tools import wire
 from tlcomm_tools.bag.container import Channel, Container, read_container
-from tlcomm_tools.bag.topics import TEAM_TOPICS, split_topic
+from tlcomm_tools.bag.topics import split_topic
 from tlcomm_tools.bag.typestore import decoding, make_typestore
 
 __all__ = ["RecordedRun", "find_files", "read_run"]
@@ -40,7 +41,8 @@ class RecordedRun:
     Attributes:
         records: the run.
         agents: as the bag's connectivity messages list them, or else sorted.
-        end_ns: the last time recorded.
+        end_ns: the last time that anything in it is of, by the messages' own stamps: when a message
+            was logged is another clock's time in others' bags.
         notes: what the recorder wrote about the run (scenario, method, solver, seed, pace); empty
             in others' bags.
         damage: why reading ended early, or "".
@@ -149,7 +151,7 @@ def _gather(path: Path, containers: list[Container]) -> RecordedRun:
     return RecordedRun(
         records=records,
         agents=collected.agents or tuple(sorted(records.messages_sent)),
-        end_ns=max((held.end_ns for held in containers if held.end_ns is not None), default=0),
+        end_ns=collected.end_ns,
         notes=notes,
         damage=next((held.damage for held in containers if held.damage), ""),
     )
@@ -161,6 +163,7 @@ class _Collected:
     def __init__(self) -> None:
         self.records = RunRecords()
         self.agents: tuple[str, ...] = ()
+        self.end_ns = 0
 
     def take(self, container: Container) -> None:
         """Decode a container's messages; count and measure what was said."""
@@ -172,8 +175,12 @@ class _Collected:
         }
         types = {number: channel.type for number, channel in container.channels.items()}
         decode = store.deserialize_cdr
+        end_ns = self.end_ns
         for number, _, data in container.messages:
-            takers[number](decode(data, types[number]))
+            message: wire.DecodedMessage = decode(data, types[number])
+            end_ns = max(end_ns, wire.stamp_ns(message.header.stamp))
+            takers[number](message)
+        self.end_ns = end_ns
         for number, channel in container.channels.items():
             self._count(channel, self.records.messages_sent, container.counts.get(number, 0))
             self._count(channel, self.records.bytes_sent, container.lengths.get(number, 0))

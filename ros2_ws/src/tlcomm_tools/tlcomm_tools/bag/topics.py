@@ -4,7 +4,6 @@
 ``recorded_topics``  all of them, for a team
 ``mirror_topics``    what the recorder adds for other people's viewers
 ``split_topic``      whose a topic is
-``TEAM_TOPICS``      the topics that agents talk on
 ``FIELD_TOPICS``     those that are there only if something is measured
 """
 
@@ -14,7 +13,6 @@ from dataclasses import dataclass
 __all__ = [
     "AGENT_TOPICS",
     "FIELD_TOPICS",
-    "TEAM_TOPICS",
     "Topic",
     "mirror_topics",
     "recorded_topics",
@@ -38,7 +36,6 @@ FIELD_TOPICS = {
     "reading": "tlcomm_msgs/msg/Reading",
     "estimate_exchange": "tlcomm_msgs/msg/EstimateExchange",
 }
-TEAM_TOPICS = ("plan_offer", "proposal", "best_response", "confirmation", "estimate_exchange")
 _LATCHED = "team_strategy"
 
 

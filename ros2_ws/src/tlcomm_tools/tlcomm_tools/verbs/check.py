@@ -1,7 +1,6 @@
 """Audit a run from its bag alone: what its method promises, tasks, agreement and places."""
 
 from argparse import ArgumentParser, Namespace
-from pathlib import Path
 from typing import Final
 
 from tlcomm_core.method import Method
@@ -11,7 +10,7 @@ from tlcomm_tools.bag.origin import find_method, find_scenario
 from tlcomm_tools.bag.reader import read_run
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_number, format_table
-from tlcomm_tools.verbs.options import print_json
+from tlcomm_tools.verbs.options import add_recorded_arguments, print_json
 
 __all__ = ["EXAMPLE", "add_arguments", "run"]
 
@@ -22,15 +21,7 @@ _SHOWN_VIOLATIONS: Final = 30
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the verb's arguments."""
-    parser.add_argument(
-        "run", type=Path, metavar="RUN_OR_BAG", help="a run's folder, a bag's folder or MCAP file"
-    )
-    parser.add_argument(
-        "--scenario",
-        type=Path,
-        metavar="FILE",
-        help="the scenario (default: as the bag says, else scenario.yaml beside the bag)",
-    )
+    add_recorded_arguments(parser)
 
 
 def run(options: Namespace) -> Status:
@@ -38,7 +29,7 @@ def run(options: Namespace) -> Status:
     recorded = read_run(options.run)
     audit = audit_run(
         find_scenario(options.run, recorded, options.scenario),
-        find_method(options.run, recorded),
+        find_method(options.run, recorded, options.method),
         recorded.records,
         recorded.end_ns,
         recorded.damage,

@@ -6,10 +6,8 @@
 ``recorded_outputs``  what an agent did, by instants
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from types import MappingProxyType
-from typing import Final
 
 from tlcomm_core.agent.actions import (
     Action,
@@ -23,27 +21,11 @@ from tlcomm_core.agent.actions import (
     TaskEvent,
 )
 from tlcomm_core.game.strategy import TeamStrategy
-from tlcomm_core.protocol.messages import (
-    BestResponse,
-    Confirmation,
-    EstimateExchange,
-    PlanOffer,
-    Proposal,
-    TeamMessage,
-)
+from tlcomm_core.protocol.messages import TeamMessage
+from tlcomm_core.protocol.topics import topic_of
 from tlcomm_tools.verification.recording import Recording
 
 __all__ = ["Failure", "Output", "output_of", "recorded_outputs"]
-
-_TOPICS: Final[Mapping[type[TeamMessage], str]] = MappingProxyType(
-    {
-        PlanOffer: "plan_offer",
-        Proposal: "proposal",
-        BestResponse: "best_response",
-        Confirmation: "confirmation",
-        EstimateExchange: "estimate_exchange",
-    }
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +64,7 @@ def output_of(action: Action) -> Output | None:
         case ReportEstimate():
             return Output("estimate", action)
         case SendMessage(message) | SayEstimate(message):
-            return Output(_TOPICS[type(message)], message)
+            return Output(topic_of(message), message)
         case CountIgnored():
             return None
 
@@ -112,4 +94,4 @@ def _recorded(recording: Recording) -> Iterator[tuple[int, str, Output]]:
         report = ReportEstimate(own.value, own.last_measurement if own.has_measurement else None)
         yield own.stamp_ns, own.agent, Output("estimate", report)
     for said in recording.said:
-        yield said.stamp_ns, said.agent, Output(_TOPICS[type(said.message)], said.message)
+        yield said.stamp_ns, said.agent, Output(topic_of(said.message), said.message)
