@@ -35,7 +35,7 @@ def test_a_good_run_has_no_violations() -> None:
     assert found.violations == ()
     assert set(found.document()["checks"]) == {
         *("bag", "records", "method", "motion", "clearance", "actions"),
-        *("tasks", "strategies", "meetings"),
+        *("tasks", "strategies", "meetings", "equilibria"),
     }
     assert [own.satisfied for own in found.windows] == [True, True, True]
     # They are half a metre apart at a meeting and leave at 1 m/s each: a quarter of a second more.

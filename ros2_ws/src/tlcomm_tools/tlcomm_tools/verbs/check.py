@@ -5,10 +5,12 @@ from pathlib import Path
 from typing import Final
 
 from tlcomm_core.method import Method
+from tlcomm_tools.audit.equilibria.finding import EquilibriumFinding
 from tlcomm_tools.audit.findings import Audit, audit_run
 from tlcomm_tools.audit.tasks import TaskFinding
 from tlcomm_tools.bag.origin import find_method, find_scenario
 from tlcomm_tools.bag.reader import read_run
+from tlcomm_tools.collection import uncollected
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_number, format_table
 from tlcomm_tools.verbs.options import print_json
@@ -35,14 +37,16 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(options: Namespace) -> Status:
     """Audit the run and show what was found."""
-    recorded = read_run(options.run)
-    audit = audit_run(
-        find_scenario(options.run, recorded, options.scenario),
-        find_method(options.run, recorded),
-        recorded.records,
-        recorded.end_ns,
-        recorded.damage,
-    )
+    with uncollected():
+        recorded = read_run(options.run)
+        audit = audit_run(
+            find_scenario(options.run, recorded, options.scenario),
+            find_method(options.run, recorded),
+            recorded.records,
+            recorded.end_ns,
+            recorded.damage,
+            recorded.pace,
+        )
     if options.json:
         print_json(audit.document())
     else:
@@ -55,6 +59,8 @@ def _format_audit(audit: Audit) -> str:
     found = {label: text for own in audit.guarantees for label, text in own.shown.items()}
     if audit.method is not Method.NONE:
         found["strategies agreed"] = f"{agreed.equal} of {agreed.rounds} {_agreed_on(audit.method)}"
+    if audit.equilibria is not None:
+        found |= _judged(audit.equilibria)
     rows = [
         (
             own.agent,
@@ -83,6 +89,15 @@ def _format_audit(audit: Audit) -> str:
     if len(audit.violations) > _SHOWN_VIOLATIONS:
         shown.append(f"  … and {len(audit.violations) - _SHOWN_VIOLATIONS} more")
     return "\n".join([*parts, "verdict: FAILED", *shown])
+
+
+def _judged(found: EquilibriumFinding) -> dict[str, str]:
+    """Return of how many strategies it could be told whether they are equilibria, and why not."""
+    shown = {"equilibria judged": f"{found.judged} of {found.strategies} strategies"}
+    if found.lacking:
+        more = len(found.lacking) - 1
+        shown["not judged"] = found.lacking[0] + (f"; {more} more reasons" if more else "")
+    return shown
 
 
 def _agreed_on(method: Method) -> str:

@@ -1,5 +1,6 @@
 """Whether anybody could have lowered the cost of a meeting alone, by the plans laid open.
 
+``LATE_S``              what agents reckon for late controllers
 ``EquilibriumFinding``  what was found
 ``audit_equilibria``    looks it up
 """
@@ -21,13 +22,14 @@ from tlcomm_tools.audit.equilibria.candidates import Candidates, Ground, grounds
 from tlcomm_tools.audit.equilibria.rounds import AgreedRound, agreed_rounds
 from tlcomm_tools.audit.evidence import Evidence
 
-__all__ = ["EquilibriumFinding", "audit_equilibria"]
+__all__ = ["LATE_S", "EquilibriumFinding", "audit_equilibria"]
 
 # Rounding of sums of times.
 _SLACK_S: Final = 1e-6
 _SPEED_SLACK: Final = 1e-9
-# What an agent that runs freely reckons for each turn and straight, twice: 1.2 periods of 50 ms.
-_LATE_S: Final = 2.0 * 1.2 * 0.05
+LATE_S: Final = 2.0 * 1.2 * 0.05
+"""What an agent that runs freely reckons for a turn and a straight: each 1.2 periods of 50 ms."""
+
 _MOST_STOPS: Final = 256
 # A search that has come so far may have ended before nobody gained any more.
 _MOST_MOVES: Final = 998
@@ -40,7 +42,7 @@ class EquilibriumFinding:
     Attributes:
         strategies: how many team strategies are held.
         judged: how many of these it could be told of.
-        lacking: of the others, what is lacking, a line each.
+        lacking: of the others, why it couldn't, a line each.
         violations: one line each.
     """
 
@@ -80,23 +82,35 @@ def audit_equilibria(
     """
     if not method.has_meetings:
         return None
-    late_s = math.nan if pace is None else 0.0 if pace.is_lockstep else _LATE_S
+    late_s = math.nan if pace is None else 0.0 if pace.is_lockstep else LATE_S
     judge = _Judge(evidence.scenario, method, grounds_of(evidence.scenario, late_s))
     lacking: list[str] = []
-    violations: list[str] = []
+    violations = list(_silent(evidence))
     judged = 0
     for agreed in agreed_rounds(method, evidence):
-        if pace is None:
-            lacking.append("at which pace the run went")
-        elif isinstance(agreed, str):
-            lacking.append(agreed)
-        elif reason := judge.obstacle(agreed):
-            lacking.append(reason)
+        obstacle = _lacking_at_all(evidence, pace) or judge.obstacle(agreed)
+        if obstacle or isinstance(agreed, str):
+            lacking.append(obstacle)
         else:
             judged += 1
             violations += judge.violations(agreed)
     count = judged + len(lacking)
     return EquilibriumFinding(count, judged, tuple(dict.fromkeys(lacking)), tuple(violations))
+
+
+def _lacking_at_all(evidence: Evidence, pace: Pace | None) -> str:
+    """Return what keeps one from judging any round, or ""."""
+    if not evidence.records.offers:
+        return "what agents planned isn't recorded"
+    return "at which pace the run went isn't recorded" if pace is None else ""
+
+
+def _silent(evidence: Evidence) -> Iterator[str]:
+    """Say whose plans aren't recorded though others' are."""
+    offering = {own.agent for own in evidence.records.offers}
+    agreeing = {own.agent for own in evidence.records.strategies}
+    if offering:
+        yield from (f"{own}: no plan offers recorded" for own in sorted(agreeing - offering))
 
 
 class _Judge:
@@ -107,13 +121,16 @@ class _Judge:
         self._keeps_places = not method.chooses_places
         self._grounds = grounds
 
-    def obstacle(self, agreed: AgreedRound) -> str:
+    def obstacle(self, agreed: AgreedRound | str) -> str:
         """Return what keeps one from judging a round, or ""."""
-        number = agreed.held.round
+        if isinstance(agreed, str):
+            return agreed
+        number, moves = agreed.held.round, agreed.held.iteration
         if agreed.map_ns not in self._grounds:
-            return f"round {number}: a map from {agreed.map_ns * 1e-9:.3f} s on"
-        if agreed.held.iteration >= _MOST_MOVES:
-            return f"round {number}: the end of the search, after {agreed.held.iteration} moves"
+            from_s = agreed.map_ns * 1e-9
+            return f"round {number}: the scenario has no map from {from_s:.3f} s on"
+        if moves >= _MOST_MOVES:
+            return f"round {number}: after {moves} moves the search may not have ended by itself"
         return ""
 
     def violations(self, agreed: AgreedRound) -> Iterator[str]:
@@ -214,7 +231,7 @@ def _mistimed(own: Strategy, candidates: Candidates, row: int, place: int) -> It
 def _costs_s(
     candidates: Candidates, team: int, others_s: float, opens_s: float
 ) -> NDArray[np.float64]:
-    """Return u_i of all candidates, counted from the window's opening; infinite where there is none."""
+    """Return u_i of all candidates, counted from the window's opening; infinite where is none."""
     since_s = np.where(np.isfinite(candidates.arrival_s), candidates.arrival_s - opens_s, 0.0)
     latest_s = np.maximum(since_s, others_s - opens_s)
     costs_s: NDArray[np.float64] = candidates.extra_s + team * latest_s - since_s
@@ -224,9 +241,9 @@ def _costs_s(
 def _best(
     costs_s: NDArray[np.float64], may: NDArray[np.bool_], present_s: float
 ) -> tuple[float, int, int] | None:
-    """Return by how much the best switch lowers the cost, its row and place; ``None`` if it doesn't."""
+    """Return by how much the best switch lowers the cost, its row and place, if it does."""
     open_s = np.where(may, costs_s, np.inf)
     best = int(np.argmin(open_s))
     saved_s = present_s - float(open_s.flat[best])
     row, place = divmod(best, costs_s.shape[1])
-    return (saved_s, row, place) if saved_s > _SLACK_S else None
+    return (saved_s, row, place) if _SLACK_S < saved_s < math.inf else None

@@ -42,9 +42,8 @@ class Openings:
         self._reach_m: Final = demands.range_m - 2.0 * tolerance_m
         self._apart_m: Final = demands.separation_m
         self._is_resilient: Final = demands.resilience > 0
-        self._walls: Final[tuple[Box, ...]] = ()
-        if scenario.radio.line_of_sight:
-            self._walls = tuple(_grown(box, tolerance_m) for box in walls)
+        hiding = walls if scenario.radio.line_of_sight else ()
+        self._walls: Final = tuple(_grown(box, tolerance_m) for box in hiding)
         self._linked = lru_cache(None)(self._linked_to)
 
     def open_to(self, places: Sequence[int]) -> Iterator[NDArray[np.bool_]]:

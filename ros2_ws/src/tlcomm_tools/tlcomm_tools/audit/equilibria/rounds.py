@@ -70,7 +70,8 @@ def _agreed(
     planned = max((own.round for own in records), default=held.round)
     lacking = [name for name, own in made.items() if own is None or own.round != planned]
     if lacking or held.round - planned > (method is not Method.PAIRWISE):
-        return f"round {held.round}: the plan of {', '.join(lacking or held.members)}"
+        names = ", ".join(lacking or held.members)
+        return f"round {held.round}: what {names} planned isn't recorded"
     window = planned - 1
     if method is Method.PAIRWISE:
         window = _window_at(evidence, held.members[0], agreed_ns)
