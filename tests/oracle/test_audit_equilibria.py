@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -178,3 +179,29 @@ def test_open_places_are_the_same(seed: int, rules: dict[str, float], *, sees: b
             assert np.array_equal(is_open, expected)
             is_some_open |= bool(expected.any())
     assert is_some_open
+
+
+def test_what_late_controllers_are_reckoned_with_is_the_same() -> None:
+    """A freely running agent's steps take as long as the audit says; in lock step, less."""
+    scenario = random_scenario(np.random.default_rng(3), agents=2)
+    site = Site.from_scenario(scenario)
+    cells = Cells(scenario.workspace, scenario.workspace.obstacles_m)
+    free = np.zeros(len(cells), dtype=np.bool_)
+    member = create("agent_1", site, Pacing.PERIODIC, Atlas(site.grid, site.region_discs))
+    member.see_odometry(0, site.start_of("agent_1"), 0.0, 0.0)
+    said = next(own.message for own in member.step(0) if isinstance(own, SendMessage))
+    assert isinstance(said, PlanOffer)
+    first, second = next(
+        (one, other)
+        for one, other in pairwise(said.offers[0].stops)
+        if (one.x_m, one.y_m) != (other.x_m, other.y_m)
+    )
+    target = cells.at(second.x_m, second.y_m)
+    taken_s = second.finish_offset_s - first.finish_offset_s
+    for late_s, is_true in ((LATE_S, True), (0.0, False)):
+        travel = Travel(cells, free, Gait(1.0, 1.5, late_s))
+        begin = Waypoint(first.x_m, first.y_m, first.yaw_rad)
+        detour = travel.detour(begin, (second.x_m, second.y_m))
+        assert detour is not None
+        acting_s = taken_s - float(detour.there_s[target])
+        assert (min(abs(acting_s), abs(acting_s - 4.0)) < 1e-9) is is_true
