@@ -8,18 +8,33 @@ from tlcomm_core.game.solver import SOLVERS
 from tlcomm_core.method import Method
 from tlcomm_core.mission import Mission
 from tlcomm_core.scenario.generator import random_scenario
+from tlcomm_core.scenario.loader import loads
 from tlcomm_core.scenario.model import DriveOverride, Noise, Radio, Scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate
 from tlcomm_tools.audit.findings import audit_run
 
+PRESS = """
+name: press
+workspace:
+  size_m: [4.0, 2.0]
+  cell_m: 0.5
+  regions:
+    west: {at_m: [0.25, 0.25], radius_m: 0.2}
+    press: {at_m: [3.75, 0.25], radius_m: 0.2}
+communication: {range_m: 1.0, period_s: 30.0, duration_s: 3.0, on_infeasible: skip}
+motion: {linear_mps: 1.0, angular_radps: 1.5}
+actions: {look: 2.0, form: 70.0}
+agents:
+  short: {start: [1.75, 0.25, 0.3], task: "G F (west & look)"}
+  long: {start: [2.25, 0.25, 0.0], task: "G F (press & form)"}
+"""
 NOISE = Noise(linear=0.05, angular=0.05)
 DEMANDS = {
     "plain": {},
     "apart": {"separation_m": 0.5},
     "resilient": {"resilience": 1},
     "both": {"separation_m": 0.5, "resilience": 1, "margin_s": 9.0},
-    "skip": {"on_infeasible": "skip"},
 }
 
 
@@ -28,8 +43,7 @@ def random_team(seed: int, demands: dict[str, object]) -> Scenario:
     scenario = random_scenario(np.random.default_rng(seed), 3 + seed % 3, size_m=(7.0, 6.0))
     name, slow = next(iter(scenario.agents.items()))
     slower = slow.model_copy(update={"motion": DriveOverride(linear_mps=0.6)})
-    # With less time some rounds have no meeting.
-    period_s = scenario.communication.period_s * (0.6 if "on_infeasible" in demands else 1.5)
+    period_s = 1.5 * scenario.communication.period_s
     communication = scenario.communication.model_copy(update={"period_s": period_s, **demands})
     return scenario.model_copy(
         update={
@@ -80,3 +94,12 @@ def test_maps_that_change(seed: int) -> None:
         update={"noise": NOISE, "radio": Radio(line_of_sight=bool(seed % 2))}
     )
     assert_equilibria(scenario, Method.TEAM, "coalition")
+
+
+def test_a_team_that_skips_windows() -> None:
+    """One action takes longer than two: what is agreed on is for the window after that planned."""
+    scenario = loads(PRESS)
+    left = simulate(Mission(Site.from_scenario(scenario), 1, None, 200.0))
+    offered = {own.round for own in left.records.offers}
+    assert {own.strategy.round for own in left.records.strategies} - offered
+    assert_equilibria(scenario, Method.TEAM, "coalition", windows=6)
