@@ -4,6 +4,8 @@
 ``StrategyRecord``  a team strategy that an agent holds as agreed
 ``OfferRecord``     the plan that an agent laid open to agree on a round
 ``EstimateRecord``  what an agent takes the field to be
+``SaidRecord``      that an agent said something
+``HeardRecord``     that an agent's radio let it through to another
 ``RunRecords``      all of it, with the world's observations
 ``event_log``       the canonical text of a run's decisions, for comparing runs
 """
@@ -20,8 +22,10 @@ from tlcomm_core.world.observation import Connectivity, Odometry
 
 __all__ = [
     "EstimateRecord",
+    "HeardRecord",
     "OfferRecord",
     "RunRecords",
+    "SaidRecord",
     "StrategyRecord",
     "TaskRecord",
     "event_log",
@@ -73,6 +77,34 @@ class EstimateRecord:
     has_measurement: bool
 
 
+@dataclass(frozen=True, slots=True)
+class SaidRecord:
+    """That an agent said something, on one of the topics that agents talk on."""
+
+    stamp_ns: int
+    agent: str
+    topic: str
+
+
+@dataclass(frozen=True, slots=True)
+class HeardRecord:
+    """That an agent's radio let a message through, on which the agent then acted.
+
+    Attributes:
+        stamp_ns: when it acted.
+        agent: who heard.
+        sender: who said it.
+        topic: on which of the sender's topics.
+        said_ns: when, by the sender's clock.
+    """
+
+    stamp_ns: int
+    agent: str
+    sender: str
+    topic: str
+    said_ns: int
+
+
 @dataclass(slots=True)
 class RunRecords:
     """Everything that results and checks are computed from, each list in order of time.
@@ -84,6 +116,10 @@ class RunRecords:
         bytes_sent: per agent, how long these were together, each as it is serialised.
         messages_undelivered: per agent, by reason, how many of the others' its radio didn't let
             through.
+        said: by all agents.
+        heard: by all agents.
+        heard_until_ns: per agent, up to when ``heard`` has all that it heard; agents of whom that
+            wasn't recorded are missing.
     """
 
     tasks: list[TaskRecord] = field(default_factory=list)
@@ -96,6 +132,9 @@ class RunRecords:
     messages_sent: dict[str, int] = field(default_factory=dict)
     bytes_sent: dict[str, int] = field(default_factory=dict)
     messages_undelivered: dict[str, Mapping[str, int]] = field(default_factory=dict)
+    said: list[SaidRecord] = field(default_factory=list)
+    heard: list[HeardRecord] = field(default_factory=list)
+    heard_until_ns: dict[str, int] = field(default_factory=dict)
 
 
 def event_log(records: RunRecords) -> Iterator[str]:

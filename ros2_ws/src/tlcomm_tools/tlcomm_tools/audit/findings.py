@@ -20,6 +20,7 @@ from tlcomm_tools.audit.equilibria.finding import EquilibriumFinding, audit_equi
 from tlcomm_tools.audit.evidence import Evidence
 from tlcomm_tools.audit.guarantees.guarantee import Guarantee
 from tlcomm_tools.audit.guarantees.methods import audit_guarantees
+from tlcomm_tools.audit.hearing import audit_hearing, unheard
 from tlcomm_tools.audit.links import WindowFinding
 from tlcomm_tools.audit.meetings import audit_meetings
 from tlcomm_tools.audit.motion import audit_motion
@@ -48,6 +49,7 @@ class Audit:
         strategies: what agents hold.
         equilibria: whether anybody could gain alone; ``None`` if the method leaves no choice.
         checks: by what was checked, what is wrong, a line each.
+        unavailable: by what would have been checked, what the records don't tell, a line each.
     """
 
     scenario: str
@@ -60,6 +62,7 @@ class Audit:
     strategies: StrategyFinding
     equilibria: EquilibriumFinding | None
     checks: Mapping[str, tuple[str, ...]]
+    unavailable: Mapping[str, tuple[str, ...]]
 
     @property
     def violations(self) -> tuple[str, ...]:
@@ -91,7 +94,11 @@ class Audit:
             },
             "strategies": {"rounds": self.strategies.rounds, "equal": self.strategies.equal},
             "equilibria": self.equilibria and self.equilibria.document(),
-            "checks": {name: list(lines) for name, lines in self.checks.items()},
+            "checks": {
+                name: None if name in self.unavailable and not lines else list(lines)
+                for name, lines in self.checks.items()
+            },
+            "unavailable": {name: list(lines) for name, lines in self.unavailable.items()},
             "verdict": list(self.violations) or "ok",
         }
 
@@ -112,7 +119,7 @@ def audit_run(
         records: what was recorded, from a bag or in memory.
         end_ns: end of the run.
         damage: why the records couldn't be read to their end, or "".
-        pace: how time went on; ``None`` if that isn't known.
+        pace: how simulated time went on; ``None`` if that isn't known.
 
     Cost: about 2 s for 100 rounds of 8 agents.
     """
@@ -130,6 +137,11 @@ def audit_run(
         "strategies": strategies.violations,
         "meetings": tuple(_meetings(method, evidence)),
         "equilibria": () if equilibria is None else equilibria.violations,
+        "hearing": tuple(audit_hearing(evidence, pace)),
+    }
+    unavailable = {
+        "equilibria": () if equilibria is None else equilibria.unavailable,
+        "hearing": unheard(evidence, pace),
     }
     return Audit(
         scenario=scenario.name,
@@ -142,6 +154,7 @@ def audit_run(
         strategies=strategies,
         equilibria=equilibria,
         checks=checks,
+        unavailable={name: lines for name, lines in unavailable.items() if lines},
     )
 
 

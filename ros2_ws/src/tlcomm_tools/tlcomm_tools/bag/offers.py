@@ -11,12 +11,12 @@ from typing import Final, NamedTuple
 
 from rosbags.typesys.store import Typestore
 
-from tlcomm_core.errors import InputError
 from tlcomm_core.protocol.messages import PlanOffer
 from tlcomm_core.records import OfferRecord
 from tlcomm_core.units import NANOSECONDS_PER_SECOND
+from tlcomm_core.wire.fields import WireError
+from tlcomm_core.wire.team_messages import decode_message
 from tlcomm_tools.wire import DecodedMessage, stamp_ns
-from tlcomm_tools.wire_messages import read_team_message
 
 __all__ = ["read_offers"]
 
@@ -52,7 +52,7 @@ def read_offers(
         arrivals_ns: when it has come to meetings, ascending.
 
     Returns:
-        Those whose numbers are finite.
+        Those that are as messages may be.
     """
     found: list[OfferRecord] = []
     known: set[tuple[int, int]] = set()
@@ -61,9 +61,9 @@ def read_offers(
         if key in known:
             continue
         try:
-            said = read_team_message(store.deserialize_cdr(data, _TYPE), _TOPIC)
-        except InputError:
-            # Nobody agrees on anything with numbers that aren't.
+            said, _ = decode_message(store.deserialize_cdr(data, _TYPE), _TOPIC)
+        except WireError:
+            # Nobody agrees on anything with what nobody takes.
             continue
         assert isinstance(said, PlanOffer), "that is what the topic holds"
         own = next((offer for offer in said.offers if offer.agent == agent), None)

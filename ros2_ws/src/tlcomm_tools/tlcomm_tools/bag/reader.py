@@ -18,12 +18,14 @@ from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.errors import InputError
 from tlcomm_core.method import Method, parse_method
 from tlcomm_core.pace import Pace, parse_pace
-from tlcomm_core.records import RunRecords
+from tlcomm_core.protocol.topics import TEAM_TOPICS
+from tlcomm_core.records import RunRecords, SaidRecord
 from tlcomm_tools import wire
 from tlcomm_tools.bag.container import Channel, Container, read_container
 from tlcomm_tools.bag.offers import read_offers
 from tlcomm_tools.bag.poses import read_poses
-from tlcomm_tools.bag.topics import TEAM_TOPICS, split_topic
+from tlcomm_tools.bag.stamps import stamp_reader
+from tlcomm_tools.bag.topics import AGENT_TOPICS, FIELD_TOPICS, split_topic
 from tlcomm_tools.bag.typestore import decoding, make_typestore
 
 __all__ = ["RecordedRun", "find_files", "read_run"]
@@ -35,8 +37,11 @@ _DECODED = {
     "round_timing": "tlcomm_msgs/msg/RoundTiming",
     "estimate": "tlcomm_msgs/msg/Estimate",
     "undelivered": "tlcomm_msgs/msg/Undelivered",
-    "plan_offer": "tlcomm_msgs/msg/PlanOffer",
+    "hearing": "tlcomm_msgs/msg/Hearing",
 }
+# Of what agents say it is enough who said something when.
+_STAMPED = {topic: ({**AGENT_TOPICS, **FIELD_TOPICS})[topic] for topic in TEAM_TOPICS}
+_OFFERS = "plan_offer"
 _CONNECTIVITY = "tlcomm_msgs/msg/Connectivity"
 # Whether it is the one in C or not, it makes no more than lists, maps and scalars.
 _Loader: Final = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
@@ -49,7 +54,8 @@ class RecordedRun:
     Attributes:
         records: the run.
         agents: as the bag's connectivity messages list them, or else sorted.
-        end_ns: the last time recorded.
+        end_ns: the last time that anything in it is of, by the messages' own stamps: when a message
+            was logged is another clock's time in others' bags.
         notes: what the recorder wrote about the run (scenario, method, solver, seed, pace); empty
             in others' bags.
         damage: why reading ended early, or "".
@@ -72,10 +78,10 @@ class RecordedRun:
 
     @property
     def pace(self) -> Pace | None:
-        """At which it went, as the notes say; ``None`` if they don't.
+        """In lock step or not, as the notes say; ``None`` if they don't.
 
         Raises:
-            InputError: the notes give no pace.
+            InputError: the notes name a pace that is none.
         """
         return parse_pace(self.notes["pace"]) if "pace" in self.notes else None
 
@@ -135,13 +141,18 @@ def read_run(path: Path) -> RecordedRun:
 
 def _is_wanted(channel: Channel) -> bool:
     _, suffix = split_topic(channel.topic)
-    return channel.type == (
+    return _is_said(channel) or channel.type == (
         _CONNECTIVITY if channel.topic == "/connectivity" else _DECODED.get(suffix)
     )
 
 
+def _is_said(channel: Channel) -> bool:
+    _, suffix = split_topic(channel.topic)
+    return channel.type == _STAMPED.get(suffix)
+
+
 def _is_offer(channel: Channel) -> bool:
-    return split_topic(channel.topic)[1] == "plan_offer"
+    return _is_said(channel) and split_topic(channel.topic)[1] == _OFFERS
 
 
 def _require_run(path: Path, containers: Iterable[Container]) -> None:
@@ -165,14 +176,21 @@ def _gather(path: Path, containers: list[Container]) -> RecordedRun:
         with decoding(path):
             collected.take(container)
     records = collected.records
-    for entries in (records.odometry, records.connectivity, records.tasks, records.strategies):
+    for entries in (
+        records.odometry,
+        records.connectivity,
+        records.tasks,
+        records.strategies,
+        records.estimates,
+        records.said,
+        records.heard,
+        records.offers,
+    ):
         entries.sort(key=attrgetter("stamp_ns"))
-    for others in (records.estimates, records.offers):
-        others.sort(key=attrgetter("stamp_ns"))
     return RecordedRun(
         records=records,
         agents=collected.agents or tuple(sorted(records.messages_sent)),
-        end_ns=max((held.end_ns for held in containers if held.end_ns is not None), default=0),
+        end_ns=collected.end_ns,
         notes=notes,
         damage=next((held.damage for held in containers if held.damage), ""),
     )
@@ -184,6 +202,7 @@ class _Collected:
     def __init__(self) -> None:
         self.records = RunRecords()
         self.agents: tuple[str, ...] = ()
+        self.end_ns = 0
 
     def take(self, container: Container) -> None:
         """Decode a container's messages; count and measure what was said."""
@@ -199,15 +218,24 @@ class _Collected:
             self._count(channel, self.records.bytes_sent, container.lengths.get(number, 0))
 
     def _take(self, store: Typestore, channel: Channel, messages: list[bytes]) -> None:
+        """Take a channel's messages."""
         agent, suffix = split_topic(channel.topic)
         if suffix == "odom":
-            self.records.odometry += read_poses(store, agent, messages)
-        elif _is_offer(channel):
-            self.records.offers += read_offers(store, agent, messages, self._arrivals_ns(agent))
+            poses = read_poses(store, agent, messages)
+            self.records.odometry += poses
+            self.end_ns = max(self.end_ns, *(own.stamp_ns for own in poses))
+            return
+        stamps_ns = list(map(stamp_reader(store, channel.type), messages))
+        self.end_ns = max(self.end_ns, *stamps_ns)
+        if _is_said(channel):
+            said = (SaidRecord(stamp_ns, agent, suffix) for stamp_ns in stamps_ns)
+            self.records.said += said
         else:
-            take = self._taker(channel)
+            take = self._taker(agent, suffix)
             for data in messages:
                 take(store.deserialize_cdr(data, channel.type))
+        if _is_offer(channel):
+            self.records.offers += read_offers(store, agent, messages, self._arrivals_ns(agent))
 
     def _arrivals_ns(self, agent: str) -> list[int]:
         return sorted(
@@ -224,8 +252,7 @@ class _Collected:
         elif agent and suffix == "odom":
             sent.setdefault(agent, 0)
 
-    def _taker(self, channel: Channel) -> Callable[[wire.DecodedMessage], None]:
-        agent, suffix = split_topic(channel.topic)
+    def _taker(self, agent: str, suffix: str) -> Callable[[wire.DecodedMessage], None]:
         records = self.records
         takers: dict[str, Callable[[wire.DecodedMessage], None]] = {
             "task_event": lambda message: records.tasks.append(wire.read_task_event(message)),
@@ -237,8 +264,14 @@ class _Collected:
             "undelivered": lambda message: records.messages_undelivered.update(
                 {agent: wire.read_undelivered(message)}
             ),
+            "hearing": lambda message: self._take_hearing(message, agent),
         }
         return takers.get(suffix, self._take_connectivity)
+
+    def _take_hearing(self, message: wire.DecodedMessage, agent: str) -> None:
+        until_ns = self.records.heard_until_ns
+        until_ns[agent] = max(until_ns.get(agent, 0), wire.stamp_ns(message.header.stamp))
+        self.records.heard += wire.read_hearing(message, agent)
 
     def _take_connectivity(self, message: wire.DecodedMessage) -> None:
         self.agents = self.agents or tuple(message.agents)

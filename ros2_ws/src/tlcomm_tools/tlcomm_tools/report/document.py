@@ -2,6 +2,7 @@
 
 ``REPORT_FORMAT``    the document's ``format``
 ``report_document``  the document of a run
+``finite``           a part of it, as JSON can say it
 """
 
 import math
@@ -22,7 +23,7 @@ from tlcomm_tools.report.links import link_spans
 from tlcomm_tools.report.rounds import round_documents
 from tlcomm_tools.report.steps import done_steps, incidents
 
-__all__ = ["REPORT_FORMAT", "report_document"]
+__all__ = ["REPORT_FORMAT", "finite", "report_document"]
 
 REPORT_FORMAT: Final = "tlcomm-report/1"
 
@@ -53,9 +54,10 @@ def report_document(
         "incidents": incidents(records.tasks),
         "field": _dump(reduction.field(scenario, end_s)),
         "metrics": metrics.document(),
+        "windows": [{"round": own.round, "satisfied": own.satisfied} for own in audit.windows],
         "audit": audit.document(),
     }
-    return {name: _finite(part) for name, part in document.items()}
+    return {name: finite(part) for name, part in document.items()}
 
 
 def _run(
@@ -114,12 +116,12 @@ def _dump(model: _Model | None) -> dict[str, Any] | None:
     return None if model is None else model.model_dump(mode="json")
 
 
-def _finite(value: Any) -> Any:  # noqa: ANN401 - any part of a document
+def finite(value: Any) -> Any:  # noqa: ANN401 - any part of a document
     """Return a part of a document with None for what JSON has no number for; fresh."""
     if isinstance(value, float):
         return value if math.isfinite(value) else None
     if isinstance(value, Mapping):
-        return {name: _finite(own) for name, own in value.items()}
+        return {name: finite(own) for name, own in value.items()}
     if isinstance(value, list | tuple):
-        return [_finite(own) for own in value]
+        return [finite(own) for own in value]
     return value

@@ -213,11 +213,8 @@ def test_without_plans_or_pace_it_is_not_available() -> None:
     own = records()
     own.offers.clear()
     found = judged(own)
-    assert found.document() == {
-        "strategies": ROUNDS + 1,
-        "judged": 0,
-        "lacking": ["what agents planned isn't recorded"],
-    }
+    assert found.document() == {"strategies": ROUNDS + 1, "judged": 0}
+    assert found.unavailable == ("what agents planned isn't recorded",)
     assert found.violations == ()
 
 

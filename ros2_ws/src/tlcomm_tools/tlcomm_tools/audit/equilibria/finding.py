@@ -8,7 +8,7 @@
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,7 @@ LATE_S: Final = 2.0 * 1.2 * 0.05
 """What an agent that runs freely reckons for a turn and a straight: each 1.2 periods of 50 ms."""
 
 _MOST_STOPS: Final = 256
+_MOST_REASONS: Final = 5
 # A search that has come so far may have ended before nobody gained any more.
 _MOST_MOVES: Final = 998
 
@@ -51,13 +52,15 @@ class EquilibriumFinding:
     lacking: tuple[str, ...]
     violations: tuple[str, ...]
 
-    def document(self) -> dict[str, Any]:
-        """Return it ready for ``json.dumps``."""
-        return {
-            "strategies": self.strategies,
-            "judged": self.judged,
-            "lacking": list(self.lacking),
-        }
+    @property
+    def unavailable(self) -> tuple[str, ...]:
+        """Why it couldn't be told of some: the first few of many reasons."""
+        first, more = self.lacking[:_MOST_REASONS], len(self.lacking) - _MOST_REASONS
+        return (*first, f"and {more} more such strategies") if more > 0 else first
+
+    def document(self) -> dict[str, int]:
+        """Return it ready for ``json.dumps``; the lines are among those of all checks."""
+        return {"strategies": self.strategies, "judged": self.judged}
 
 
 def audit_equilibria(
