@@ -68,6 +68,7 @@ def test_a_run_is_looked_on(tmp_path: Path) -> None:
     out, told = tmp_path / "run", queue.SimpleQueue[str]()
     with Browser((1280, 900)) as browser, ThreadPoolExecutor() as pool:
         running = pool.submit(run_mission, options_of(out), lambda *_: None, told.put)
+        assert told.get(timeout=LIMIT_S).startswith("ROS domain ")
         address = told.get(timeout=LIMIT_S).removeprefix(ADDRESS)
         browser.open(address)
         browser.wait_for("state === 'running' && ROUNDS.length > 1")

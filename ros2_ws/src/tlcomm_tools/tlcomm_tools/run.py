@@ -110,6 +110,7 @@ def run_mission(
     specs = _specs(options, folder)
     count = len(specs) + options.has_view
     with claim_domain() as domain, contextlib.ExitStack() as stack:
+        tell(f"ROS domain {domain}")
         environment = process_environment(os.environ, domain, folder.logs.absolute(), count)
         view = _view(options, folder, environment, tell) if options.has_view else None
         onlooker = None if view is None else stack.enter_context(view)

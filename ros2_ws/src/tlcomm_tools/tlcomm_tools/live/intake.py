@@ -14,15 +14,15 @@ from typing import Final
 from rosbags.serde import SerdeError
 from rosbags.typesys.store import Typestore
 
-from tlcomm_core.errors import InputError
 from tlcomm_core.protocol.messages import BestResponse
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import NANOSECONDS_PER_SECOND
+from tlcomm_core.wire.fields import WireError
+from tlcomm_core.wire.team_messages import decode_message
 from tlcomm_tools import wire
 from tlcomm_tools.bag.topics import Topic, mirror_topics, recorded_topics, split_topic
 from tlcomm_tools.live.document import LiveDocument
 from tlcomm_tools.report.plans import PLAN_TYPE, read_corners
-from tlcomm_tools.wire_messages import read_team_message
 
 __all__ = ["Heard", "Intake", "read_stamp", "shown_topics"]
 
@@ -93,7 +93,7 @@ class Intake:
         if topic.type == PLAN_TYPE:
             self._document.take_plan(topic.agent, read_stamp(data), read_corners(data))
             return
-        with contextlib.suppress(InputError, SerdeError, ValueError):
+        with contextlib.suppress(WireError, SerdeError, ValueError):
             self._takers[topic.type](self._store.deserialize_cdr(data, topic.type), topic.agent)
 
     def _take_connectivity(self, message: wire.DecodedMessage, _: str) -> None:
@@ -112,6 +112,6 @@ class Intake:
         self._document.take_estimate(wire.read_estimate(message))
 
     def _take_response(self, message: wire.DecodedMessage, _: str) -> None:
-        said = read_team_message(message, "best_response")
+        said, _sent_ns = decode_message(message, "best_response")
         assert isinstance(said, BestResponse)
         self._document.take_response(said)

@@ -48,7 +48,7 @@ def report_document(
     Cost: about 4 s for 100 rounds of 8 agents, half of it the audit.
     """
     records, end_s = recorded.records, seconds(recorded.end_ns)
-    audit = audit_run(scenario, method, records, recorded.end_ns, recorded.damage)
+    audit = audit_run(scenario, method, records, recorded.end_ns, recorded.damage, recorded.pace)
     metrics = run_metrics(scenario, records, method, recorded.end_ns)
     document = {
         "format": REPORT_FORMAT,

@@ -1,6 +1,7 @@
 """Options that several verbs share, and the types of their values.
 
 ``add_mission_arguments``  what is run, how long, and where to
+``add_recorded_arguments``  a run to look at, and what it was if its bag doesn't say
 ``add_pace_argument``      how simulated time goes on
 ``add_seed_argument``      what chance is drawn from
 ``add_solver_argument``    how rounds are solved
@@ -29,6 +30,7 @@ __all__ = [
     "LOCKSTEP",
     "add_mission_arguments",
     "add_pace_argument",
+    "add_recorded_arguments",
     "add_seed_argument",
     "add_solver_argument",
     "add_view_argument",
@@ -204,6 +206,25 @@ def add_solver_argument(parser: argparse.ArgumentParser) -> None:
 def add_seed_argument(parser: argparse.ArgumentParser, of: str = "all that is random") -> None:
     """Add what chance is drawn from."""
     parser.add_argument("--seed", type=seed, default=0, metavar="N", help=f"of {of} (default 0)")
+
+
+def add_recorded_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the run or bag, the scenario, and the method."""
+    parser.add_argument(
+        "run", type=Path, metavar="RUN_OR_BAG", help="a run's folder, a bag's folder or MCAP file"
+    )
+    parser.add_argument(
+        "--scenario",
+        type=Path,
+        metavar="FILE",
+        help="the scenario (default: as the bag says, else scenario.yaml beside the bag)",
+    )
+    parser.add_argument(
+        "--method",
+        type=method,
+        metavar="NAME",
+        help=f"one of {', '.join(Method)} (default: as the bag says, else {Method.TEAM})",
+    )
 
 
 def add_pace_argument(parser: argparse.ArgumentParser) -> None:

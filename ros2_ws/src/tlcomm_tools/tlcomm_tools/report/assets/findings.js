@@ -106,6 +106,9 @@ function auditParts(audit) {
   const { equal, rounds } = audit.strategies;
   const parts = [taskTable(audit), promiseTable(audit)];
   if (audit.note) parts.unshift(element("p", {}, `The bag was read only in part: ${audit.note}`));
+  for (const [name, lines] of Object.entries(audit.unavailable)) {
+    lines.forEach((line) => parts.push(element("p", {}, `Not available: ${name}: ${line}`)));
+  }
   parts.push(element("p", {}, `Strategies agreed: ${equal} of ${rounds}.`));
   return parts;
 }
