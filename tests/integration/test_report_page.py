@@ -112,6 +112,24 @@ def test_a_chosen_agent_shows_its_way_ahead(tmp_path: Path, browser: Browser) ->
     assert browser.complaints() == []
 
 
+def test_charts_show_the_map_as_it_was(tmp_path: Path, browser: Browser) -> None:
+    """Where they met is drawn on the map at the time, and the schedule tells when that changes."""
+    write_bag(tmp_path / "bag", hand_made_records())
+    document = report_document(
+        hand_made_scenario(), Method.TEAM, read_run(tmp_path / "bag"), (), {}
+    )
+    document["ground"]["changes"] = [{"at_s": 12.0, "obstacles_m": [[0.0, 0.5, 1.0, 1.0]]}]
+    page = tmp_path / "page.html"
+    page.write_text(render_page(document), "utf-8")
+    boxes = "byId('places').layout.shapes.filter((own) => own.type === 'rect').length"
+    open_page(browser, f"{page.as_uri()}#time=11")
+    assert browser.evaluate(boxes) == 0
+    assert "the map changes" in browser.text("#schedule")
+    browser.press("body", RIGHT)
+    assert browser.evaluate(boxes) == 1
+    assert browser.complaints() == []
+
+
 def test_a_link_names_a_moment(tmp_path: Path, browser: Browser) -> None:
     """Time and agent are as the address says."""
     address = write_page(tmp_path, hand_made_records())
