@@ -14,6 +14,7 @@ from support.hand_made_run import (
     write_bag,
 )
 from support.live_page import grown
+from support.planned_bag import write_planned_bag
 from tlcomm_core.method import Method
 from tlcomm_core.records import RunRecords
 from tlcomm_core.units import nanoseconds
@@ -21,6 +22,7 @@ from tlcomm_tools.bag.definitions import load_typestore
 from tlcomm_tools.live.document import LiveDocument
 from tlcomm_tools.live.intake import Heard, read_stamp, shown_topics
 from tlcomm_tools.live.session import Session
+from tlcomm_tools.report.plans import read_plans
 
 STORE = load_typestore(SHARE)
 TOPICS = shown_topics(hand_made_scenario())
@@ -106,6 +108,16 @@ def test_a_run_that_is_over_at_once_is_read(tmp_path: Path) -> None:
     page = view.end()
     assert page == whole_page(tmp_path)
     assert page["run"]["verdict"] == "ok"
+
+
+def test_ways_ahead_are_those_of_a_report(tmp_path: Path) -> None:
+    """What viewers are shown of plans, the page shows too."""
+    path = write_planned_bag(tmp_path / "bag")
+    view = View(tmp_path / "bag")
+    east, west = view.end()["agents"]
+    own = json.loads(json.dumps(read_plans(path)["east"].document()))
+    assert {name: east[name] for name in own} == own
+    assert (len(east["ways"]), len(west["ways"])) == (1, 0)
 
 
 @pytest.mark.parametrize("data", [b"", b"\x00\x01\x00\x00", b"\x00\x01\x00\x00" + b"\xff" * 40])

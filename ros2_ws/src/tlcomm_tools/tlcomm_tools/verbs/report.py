@@ -11,6 +11,7 @@ from tlcomm_tools.folder import replace_file
 from tlcomm_tools.report.document import report_document
 from tlcomm_tools.report.moves import read_best_responses
 from tlcomm_tools.report.page import render_page
+from tlcomm_tools.report.plans import read_plans
 from tlcomm_tools.status import Status
 from tlcomm_tools.verbs.options import add_recorded_arguments, print_json
 
@@ -38,8 +39,8 @@ def run(options: Namespace) -> Status:
     recorded = read_run(options.run)
     scenario = find_scenario(options.run, recorded, options.scenario)
     method = find_method(options.run, recorded, options.method)
-    said = read_best_responses(options.run)
-    document = report_document(scenario, method, recorded, said)
+    said, plans = read_best_responses(options.run), read_plans(options.run)
+    document = report_document(scenario, method, recorded, said, plans)
     text = render_page(document)
     replace_file(options.out, text)
     verdict = document["audit"]["verdict"]

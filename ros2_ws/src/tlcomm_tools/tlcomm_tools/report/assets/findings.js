@@ -42,6 +42,7 @@ function drawSubtitle() {
 
 function drawVerdict() {
   const isFine = verdict() === "ok";
+  byId("map-title").textContent = isLive() ? "What is going on" : "What happened";
   byId("verdict").textContent = state || `verdict: ${isFine ? "ok" : "FAILED"}`;
   byId("verdict").classList.toggle("ok", isFine && !isLive());
   byId("verdict").classList.toggle("running", isLive());
