@@ -14,7 +14,7 @@ from tlcomm_core.protocol.messages import BestResponse
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import seconds
-from tlcomm_core.world.observation import Odometry
+from tlcomm_tools.audit.evidence import usable_parts
 from tlcomm_tools.audit.findings import audit_run
 from tlcomm_tools.bag.reader import RecordedRun
 from tlcomm_tools.figures import reduction
@@ -40,8 +40,10 @@ def report_document(
 
     Cost: about 4 s for 100 rounds of 8 agents, half of it the audit.
     """
-    records, end_s = recorded.records, seconds(recorded.end_ns)
-    audit = audit_run(scenario, method, records, recorded.end_ns, recorded.damage)
+    end_s = seconds(recorded.end_ns)
+    audit = audit_run(scenario, method, recorded.records, recorded.end_ns, recorded.damage)
+    # What isn't usable the audit names.
+    records, _ = usable_parts(scenario, recorded.records)
     metrics = run_metrics(scenario, records, method, recorded.end_ns)
     document = {
         "format": REPORT_FORMAT,
@@ -81,11 +83,8 @@ def _ground(scenario: Scenario) -> dict[str, Any]:
 
 
 def _agents(scenario: Scenario, records: RunRecords, end_s: float) -> list[dict[str, Any]]:
-    placed = filter(_is_placed, records.odometry)
-    odometry, tasks = (
-        reduction.by_agent(scenario, placed),
-        reduction.by_agent(scenario, records.tasks),
-    )
+    odometry = reduction.by_agent(scenario, records.odometry)
+    tasks = reduction.by_agent(scenario, records.tasks)
     estimates = reduction.by_agent(scenario, records.estimates)
     return [
         {
@@ -100,10 +99,6 @@ def _agents(scenario: Scenario, records: RunRecords, end_s: float) -> list[dict[
         }
         for name, own in scenario.agents.items()
     ]
-
-
-def _is_placed(seen: Odometry) -> bool:
-    return math.isfinite(seen.pose.x_m) and math.isfinite(seen.pose.y_m)
 
 
 class _Model(Protocol):
