@@ -3,6 +3,8 @@
 ``TaskRecord``      an agent's ``TaskEvent`` with its time
 ``StrategyRecord``  a team strategy that an agent holds as agreed
 ``EstimateRecord``  what an agent takes the field to be
+``SaidRecord``      that an agent said something
+``HeardRecord``     that an agent's radio let it through to another
 ``RunRecords``      all of it, with the world's observations
 ``event_log``       the canonical text of a run's decisions, for comparing runs
 """
@@ -16,7 +18,15 @@ from tlcomm_core.agent.timing import RoundTiming
 from tlcomm_core.game.strategy import TeamStrategy
 from tlcomm_core.world.observation import Connectivity, Odometry
 
-__all__ = ["EstimateRecord", "RunRecords", "StrategyRecord", "TaskRecord", "event_log"]
+__all__ = [
+    "EstimateRecord",
+    "HeardRecord",
+    "RunRecords",
+    "SaidRecord",
+    "StrategyRecord",
+    "TaskRecord",
+    "event_log",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +64,34 @@ class EstimateRecord:
     has_measurement: bool
 
 
+@dataclass(frozen=True, slots=True)
+class SaidRecord:
+    """That an agent said something, on one of the topics that agents talk on."""
+
+    stamp_ns: int
+    agent: str
+    topic: str
+
+
+@dataclass(frozen=True, slots=True)
+class HeardRecord:
+    """That an agent's radio let a message through, on which the agent then acted.
+
+    Attributes:
+        stamp_ns: when it acted.
+        agent: who heard.
+        sender: who said it.
+        topic: on which of the sender's topics.
+        said_ns: when, by the sender's clock.
+    """
+
+    stamp_ns: int
+    agent: str
+    sender: str
+    topic: str
+    said_ns: int
+
+
 @dataclass(slots=True)
 class RunRecords:
     """Everything that results and checks are computed from, each list in order of time.
@@ -64,6 +102,10 @@ class RunRecords:
         bytes_sent: per agent, how long these were together, each as it is serialised.
         messages_undelivered: per agent, by reason, how many of the others' its radio didn't let
             through.
+        said: by all agents.
+        heard: by all agents.
+        heard_until_ns: per agent, up to when ``heard`` has all that it heard; agents of whom that
+            wasn't recorded are missing.
     """
 
     tasks: list[TaskRecord] = field(default_factory=list)
@@ -75,6 +117,9 @@ class RunRecords:
     messages_sent: dict[str, int] = field(default_factory=dict)
     bytes_sent: dict[str, int] = field(default_factory=dict)
     messages_undelivered: dict[str, Mapping[str, int]] = field(default_factory=dict)
+    said: list[SaidRecord] = field(default_factory=list)
+    heard: list[HeardRecord] = field(default_factory=list)
+    heard_until_ns: dict[str, int] = field(default_factory=dict)
 
 
 def event_log(records: RunRecords) -> Iterator[str]:

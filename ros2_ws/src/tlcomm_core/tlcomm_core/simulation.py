@@ -26,7 +26,15 @@ from tlcomm_core.agent.timing import TimedMember
 from tlcomm_core.mission import Mission, create_world
 from tlcomm_core.protocol.messages import TeamMessage
 from tlcomm_core.protocol.size import size_bytes
-from tlcomm_core.records import EstimateRecord, RunRecords, StrategyRecord, TaskRecord
+from tlcomm_core.protocol.topics import topic_of
+from tlcomm_core.records import (
+    EstimateRecord,
+    HeardRecord,
+    RunRecords,
+    SaidRecord,
+    StrategyRecord,
+    TaskRecord,
+)
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.world.lockstep import LockStep, Reply
@@ -78,6 +86,8 @@ def simulate(
         if on_progress is not None:
             on_progress(step.time_ns, harness.lockstep.meetings_ended)
     harness.left.collisions = dict(harness.world.collisions)
+    agents = mission.site.scenario.agents
+    harness.left.records.heard_until_ns = dict.fromkeys(agents, harness.left.sim_ns)
     return harness.left
 
 
@@ -152,6 +162,10 @@ class _Harness:
                 case _:
                     self._perform(name, action, now_ns)
         member = self._members[name]
+        self.left.records.heard += [
+            HeardRecord(now_ns, name, own.message.sender, topic_of(own.message), own.said_ns)
+            for own in member.heard
+        ]
         return Reply(
             next_need_ns=member.next_need_ns,
             team_messages=self.left.records.messages_sent[name],
@@ -181,6 +195,7 @@ class _Harness:
     def _broadcast(self, sender: str, message: TeamMessage, now_ns: int) -> None:
         self.left.records.messages_sent[sender] += 1
         self.left.records.bytes_sent[sender] += size_bytes(message)
+        self.left.records.said.append(SaidRecord(now_ns, sender, topic_of(message)))
         if self._on_message is not None:
             self._on_message(message)
         for name, member in self._members.items():

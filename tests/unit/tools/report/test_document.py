@@ -17,7 +17,7 @@ from tlcomm_tools.report.document import report_document
 
 def recorded(records: RunRecords) -> RecordedRun:
     """Return the run of some records."""
-    return RecordedRun(records, AGENTS, nanoseconds(END_S), {"seed": "7"}, "")
+    return RecordedRun(records, AGENTS, nanoseconds(END_S), {"seed": "7", "pace": "lockstep"}, "")
 
 
 def test_the_document_says_what_the_audit_says() -> None:

@@ -19,6 +19,8 @@
 ``strategies``  whether those who agree hold the same strategies
 ``plans``       whether their meetings are connected, in their windows and to be had in time
 ``meetings``    whether their places are as the scenario demands
+``proximity``   whether two agents were in range and sight of each other at given times
+``hearing``     whether agents heard only what was said, by somebody in range, and not before
 ``findings``    all of it as one document: ``audit_run`` is the way in
 
 It shares no code with planner, game, protocol and world, so that it can't repeat their mistakes.

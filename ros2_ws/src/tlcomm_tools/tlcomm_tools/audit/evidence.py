@@ -93,6 +93,6 @@ class Evidence:
 
 def usable_parts(scenario: Scenario, records: RunRecords) -> tuple[RunRecords, tuple[str, ...]]:
     """Return the scenario's agents' records that are numbers, and a line for each other kind."""
-    ours, strangers = keep_members(records, scenario.agents)
+    ours, strangers = keep_members(records, frozenset(scenario.agents))
     finite, flaws = keep_finite(ours)
     return finite, (*strangers, *flaws)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from tlcomm_core.method import Method
+from tlcomm_core.pace import Pace
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_tools.audit.actions import audit_actions
@@ -18,6 +19,7 @@ from tlcomm_tools.audit.conditions import audit_conditions
 from tlcomm_tools.audit.evidence import Evidence
 from tlcomm_tools.audit.guarantees.guarantee import Guarantee
 from tlcomm_tools.audit.guarantees.methods import audit_guarantees
+from tlcomm_tools.audit.hearing import audit_hearing, unheard
 from tlcomm_tools.audit.links import WindowFinding
 from tlcomm_tools.audit.meetings import audit_meetings
 from tlcomm_tools.audit.motion import audit_motion
@@ -29,6 +31,8 @@ from tlcomm_tools.audit.trespass import audit_trespass
 __all__ = ["AUDIT_FORMAT", "Audit", "audit_run"]
 
 AUDIT_FORMAT: Final = "tlcomm-audit/1"
+
+_LOCK_STEP: Final = Pace(None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +49,7 @@ class Audit:
         tasks: each agent's task.
         strategies: what agents hold.
         checks: by what was checked, what is wrong, a line each.
+        unavailable: by what would have been checked, what the records don't tell, a line each.
     """
 
     scenario: str
@@ -56,6 +61,7 @@ class Audit:
     tasks: tuple[TaskFinding, ...]
     strategies: StrategyFinding
     checks: Mapping[str, tuple[str, ...]]
+    unavailable: Mapping[str, tuple[str, ...]]
 
     @property
     def violations(self) -> tuple[str, ...]:
@@ -86,13 +92,22 @@ class Audit:
                 for own in self.tasks
             },
             "strategies": {"rounds": self.strategies.rounds, "equal": self.strategies.equal},
-            "checks": {name: list(lines) for name, lines in self.checks.items()},
+            "checks": {
+                name: None if name in self.unavailable and not lines else list(lines)
+                for name, lines in self.checks.items()
+            },
+            "unavailable": {name: list(lines) for name, lines in self.unavailable.items()},
             "verdict": list(self.violations) or "ok",
         }
 
 
 def audit_run(
-    scenario: Scenario, method: Method, records: RunRecords, end_ns: int, damage: str = ""
+    scenario: Scenario,
+    method: Method,
+    records: RunRecords,
+    end_ns: int,
+    damage: str = "",
+    pace: Pace | None = _LOCK_STEP,
 ) -> Audit:
     """Audit a run against its scenario, and against what its method promises.
 
@@ -102,6 +117,7 @@ def audit_run(
         records: what was recorded, from a bag or in memory.
         end_ns: end of the run.
         damage: why the records couldn't be read to their end, or "".
+        pace: how simulated time went on; ``None`` if that isn't known.
 
     Cost: about 2 s for 100 rounds of 8 agents.
     """
@@ -117,7 +133,9 @@ def audit_run(
         "tasks": tuple(line for own in tasks for line in own.violations),
         "strategies": strategies.violations,
         "meetings": tuple(_meetings(method, evidence)),
+        "hearing": tuple(audit_hearing(evidence, pace)),
     }
+    unavailable = {"hearing": unheard(evidence, pace)}
     return Audit(
         scenario=scenario.name,
         method=method,
@@ -128,6 +146,7 @@ def audit_run(
         tasks=tuple(tasks),
         strategies=strategies,
         checks=checks,
+        unavailable={name: lines for name, lines in unavailable.items() if lines},
     )
 
 

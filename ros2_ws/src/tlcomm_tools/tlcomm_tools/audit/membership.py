@@ -4,7 +4,7 @@
 """
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Protocol, TypeVar
 
@@ -22,9 +22,7 @@ class _Owned(Protocol):
 _Own = TypeVar("_Own", bound=_Owned)
 
 
-def keep_members(
-    records: RunRecords, agents: Collection[str]
-) -> tuple[RunRecords, tuple[str, ...]]:
+def keep_members(records: RunRecords, agents: frozenset[str]) -> tuple[RunRecords, tuple[str, ...]]:
     """Return the records without those of strangers, and a line per kind and stranger.
 
     Odometry may be of other robots besides, which is no fault.
@@ -40,13 +38,19 @@ def keep_members(
         timings=timings,
         estimates=estimates,
         odometry=[own for own in records.odometry if own.agent in agents],
+        heard=[own for own in records.heard if {own.agent, own.sender} <= agents],
     )
     strange = (*task_lines, *strategy_lines, *timing_lines, *estimate_lines)
-    return kept, (*strange, *_strange_strategies(strategies, agents))
+    voices = {own.sender for own in records.heard} - agents
+    return kept, (
+        *strange,
+        *_strange_strategies(strategies, agents),
+        *(f"{name!r} is no agent of the scenario, and was heard" for name in sorted(voices)),
+    )
 
 
 def _parted(
-    entries: Iterable[_Own], agents: Collection[str], what: str
+    entries: Iterable[_Own], agents: frozenset[str], what: str
 ) -> tuple[list[_Own], list[str]]:
     """Return the members' own, and a line for each stranger."""
     kept: list[_Own] = []
@@ -67,13 +71,11 @@ def _counted(count: int, what: str) -> str:
     return f"1 {what}" if count == 1 else f"{count} {plural}"
 
 
-def _is_of_members(held: TeamStrategy, agents: Collection[str]) -> bool:
+def _is_of_members(held: TeamStrategy, agents: frozenset[str]) -> bool:
     return bool(held.strategies) and all(own.agent in agents for own in held.strategies)
 
 
-def _strange_strategies(
-    records: Iterable[StrategyRecord], agents: Collection[str]
-) -> Iterator[str]:
+def _strange_strategies(records: Iterable[StrategyRecord], agents: frozenset[str]) -> Iterator[str]:
     for record in records:
         held = record.strategy
         if not _is_of_members(held, agents):

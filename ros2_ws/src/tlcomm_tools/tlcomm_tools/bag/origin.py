@@ -2,6 +2,7 @@
 
 ``find_scenario``  the scenario
 ``find_method``    the method of coordination
+``find_pace``      how simulated time went on
 """
 
 from pathlib import Path
@@ -9,13 +10,14 @@ from typing import Final
 
 from tlcomm_core.errors import InputError
 from tlcomm_core.method import Method
+from tlcomm_core.pace import Pace
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.loader import load_scenario, loads
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import seconds
 from tlcomm_tools.bag.reader import RecordedRun, find_files
 
-__all__ = ["find_method", "find_scenario"]
+__all__ = ["find_method", "find_pace", "find_scenario"]
 
 _MOST_WINDOWS: Final = 100_000
 
@@ -48,6 +50,20 @@ def find_method(path: Path, recorded: RecordedRun, given: Method | None = None) 
         return given
     try:
         return recorded.method
+    except InputError as error:
+        raise InputError(f"{str(path)!r}: {error}") from None
+
+
+def find_pace(path: Path, recorded: RecordedRun, given: Pace | None = None) -> Pace | None:
+    """Return how simulated time went on, as given or as the bag says; ``None`` if neither does.
+
+    Raises:
+        InputError: the bag names a pace that is none.
+    """
+    if given is not None:
+        return given
+    try:
+        return recorded.pace
     except InputError as error:
         raise InputError(f"{str(path)!r}: {error}") from None
 

@@ -11,13 +11,17 @@ from operator import attrgetter
 from pathlib import Path
 
 import yaml
+from rosbags.typesys.store import Typestore
 
 from tlcomm_core.errors import InputError
 from tlcomm_core.method import Method, parse_method
-from tlcomm_core.records import RunRecords
+from tlcomm_core.pace import Pace, parse_pace
+from tlcomm_core.protocol.topics import TEAM_TOPICS
+from tlcomm_core.records import RunRecords, SaidRecord
 from tlcomm_tools import wire
 from tlcomm_tools.bag.container import Channel, Container, read_container
-from tlcomm_tools.bag.topics import TEAM_TOPICS, split_topic
+from tlcomm_tools.bag.stamps import stamp_reader
+from tlcomm_tools.bag.topics import AGENT_TOPICS, FIELD_TOPICS, split_topic
 from tlcomm_tools.bag.typestore import decoding, make_typestore
 
 __all__ = ["RecordedRun", "find_files", "read_run"]
@@ -29,7 +33,10 @@ _DECODED = {
     "round_timing": "tlcomm_msgs/msg/RoundTiming",
     "estimate": "tlcomm_msgs/msg/Estimate",
     "undelivered": "tlcomm_msgs/msg/Undelivered",
+    "hearing": "tlcomm_msgs/msg/Hearing",
 }
+# Of what agents say it is enough who said something when.
+_STAMPED = {topic: ({**AGENT_TOPICS, **FIELD_TOPICS})[topic] for topic in TEAM_TOPICS}
 _CONNECTIVITY = "tlcomm_msgs/msg/Connectivity"
 
 
@@ -61,6 +68,15 @@ class RecordedRun:
             InputError: the notes name a method that isn't known.
         """
         return parse_method(self.notes.get("method", Method.TEAM.value))
+
+    @property
+    def pace(self) -> Pace | None:
+        """In lock step or not, as the notes say; ``None`` if they don't.
+
+        Raises:
+            InputError: the notes name a pace that is none.
+        """
+        return parse_pace(self.notes["pace"]) if "pace" in self.notes else None
 
 
 def find_files(path: Path) -> tuple[Path, ...]:
@@ -118,9 +134,14 @@ def read_run(path: Path) -> RecordedRun:
 
 def _is_wanted(channel: Channel) -> bool:
     _, suffix = split_topic(channel.topic)
-    return channel.type == (
+    return _is_said(channel) or channel.type == (
         _CONNECTIVITY if channel.topic == "/connectivity" else _DECODED.get(suffix)
     )
+
+
+def _is_said(channel: Channel) -> bool:
+    _, suffix = split_topic(channel.topic)
+    return channel.type == _STAMPED.get(suffix)
 
 
 def _require_run(path: Path, containers: Iterable[Container]) -> None:
@@ -146,9 +167,16 @@ def _gather(path: Path, containers: list[Container]) -> RecordedRun:
         with decoding(path):
             collected.take(container)
     records = collected.records
-    for entries in (records.odometry, records.connectivity, records.tasks, records.strategies):
+    for entries in (
+        records.odometry,
+        records.connectivity,
+        records.tasks,
+        records.strategies,
+        records.estimates,
+        records.said,
+        records.heard,
+    ):
         entries.sort(key=attrgetter("stamp_ns"))
-    records.estimates.sort(key=attrgetter("stamp_ns"))
     return RecordedRun(
         records=records,
         agents=collected.agents or tuple(sorted(records.messages_sent)),
@@ -169,19 +197,15 @@ class _Collected:
     def take(self, container: Container) -> None:
         """Decode a container's messages; count and measure what was said."""
         store = make_typestore(filter(_is_wanted, container.channels.values()))
-        takers = {
-            number: self._taker(channel)
-            for number, channel in container.channels.items()
-            if _is_wanted(channel)
+        wanted = {
+            number: channel for number, channel in container.channels.items() if _is_wanted(channel)
         }
-        types = {number: channel.type for number, channel in container.channels.items()}
-        decode = store.deserialize_cdr
-        end_ns = self.end_ns
+        takers = {number: self._taker(channel, store) for number, channel in wanted.items()}
+        stamps = {number: stamp_reader(store, channel.type) for number, channel in wanted.items()}
         for number, _, data in container.messages:
-            message: wire.DecodedMessage = decode(data, types[number])
-            end_ns = max(end_ns, wire.stamp_ns(message.header.stamp))
-            takers[number](message)
-        self.end_ns = end_ns
+            stamp_ns = stamps[number](data)
+            self.end_ns = max(self.end_ns, stamp_ns)
+            takers[number](data, stamp_ns)
         for number, channel in container.channels.items():
             self._count(channel, self.records.messages_sent, container.counts.get(number, 0))
             self._count(channel, self.records.bytes_sent, container.lengths.get(number, 0))
@@ -194,8 +218,17 @@ class _Collected:
         elif agent and suffix == "odom":
             sent.setdefault(agent, 0)
 
-    def _taker(self, channel: Channel) -> Callable[[wire.DecodedMessage], None]:
+    def _taker(self, channel: Channel, store: Typestore) -> Callable[[bytes, int], None]:
+        """Return what takes a message of the channel, as it is stored, and its stamp (ns)."""
         agent, suffix = split_topic(channel.topic)
+        if _is_said(channel):
+            said = self.records.said
+            return lambda _, stamp_ns: said.append(SaidRecord(stamp_ns, agent, suffix))
+        decode, kind = store.deserialize_cdr, channel.type
+        take = self._decoded_taker(agent, suffix)
+        return lambda data, _: take(decode(data, kind))
+
+    def _decoded_taker(self, agent: str, suffix: str) -> Callable[[wire.DecodedMessage], None]:
         records = self.records
         takers: dict[str, Callable[[wire.DecodedMessage], None]] = {
             "odom": lambda message: records.odometry.append(wire.read_odometry(message, agent)),
@@ -208,8 +241,14 @@ class _Collected:
             "undelivered": lambda message: records.messages_undelivered.update(
                 {agent: wire.read_undelivered(message)}
             ),
+            "hearing": lambda message: self._take_hearing(message, agent),
         }
         return takers.get(suffix, self._take_connectivity)
+
+    def _take_hearing(self, message: wire.DecodedMessage, agent: str) -> None:
+        until_ns = self.records.heard_until_ns
+        until_ns[agent] = max(until_ns.get(agent, 0), wire.stamp_ns(message.header.stamp))
+        self.records.heard += wire.read_hearing(message, agent)
 
     def _take_connectivity(self, message: wire.DecodedMessage) -> None:
         names, graph = tuple(message.agents), wire.read_connectivity(message)

@@ -2,6 +2,7 @@
 
 ``REPORT_FORMAT``    the document's ``format``
 ``report_document``  the document of a run
+``finite``           a part of it, as JSON can say it
 """
 
 import math
@@ -10,6 +11,7 @@ from typing import Any, Final, Protocol
 
 from tlcomm_core.method import Method
 from tlcomm_core.metrics.run import run_metrics
+from tlcomm_core.pace import Pace
 from tlcomm_core.protocol.messages import BestResponse
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
@@ -22,13 +24,17 @@ from tlcomm_tools.report.links import link_spans
 from tlcomm_tools.report.rounds import round_documents
 from tlcomm_tools.report.steps import done_steps, incidents
 
-__all__ = ["REPORT_FORMAT", "report_document"]
+__all__ = ["REPORT_FORMAT", "finite", "report_document"]
 
 REPORT_FORMAT: Final = "tlcomm-report/1"
 
 
 def report_document(
-    scenario: Scenario, method: Method, recorded: RecordedRun, said: Iterable[BestResponse] = ()
+    scenario: Scenario,
+    method: Method,
+    recorded: RecordedRun,
+    said: Iterable[BestResponse] = (),
+    pace: Pace | None = None,
 ) -> dict[str, Any]:
     """Return what a page shows of a run; a number that isn't finite isn't available.
 
@@ -37,14 +43,16 @@ def report_document(
         method: of coordination.
         recorded: what the bag holds.
         said: what agents told of their best responses.
+        pace: how simulated time went on; by default as the bag says.
 
     Cost: about 4 s for 100 rounds of 8 agents, half of it the audit.
     """
-    end_s = seconds(recorded.end_ns)
-    audit = audit_run(scenario, method, recorded.records, recorded.end_ns, recorded.damage)
+    end_ns, end_s = recorded.end_ns, seconds(recorded.end_ns)
+    pace = recorded.pace if pace is None else pace
+    audit = audit_run(scenario, method, recorded.records, end_ns, recorded.damage, pace)
     # What isn't usable the audit names.
     records, _ = usable_parts(scenario, recorded.records)
-    metrics = run_metrics(scenario, records, method, recorded.end_ns)
+    metrics = run_metrics(scenario, records, method, end_ns)
     document = {
         "format": REPORT_FORMAT,
         "run": _run(scenario, method, recorded.notes, end_s),
@@ -55,9 +63,10 @@ def report_document(
         "incidents": incidents(records.tasks),
         "field": _dump(reduction.field(scenario, end_s)),
         "metrics": metrics.document(),
+        "windows": [{"round": own.round, "satisfied": own.satisfied} for own in audit.windows],
         "audit": audit.document(),
     }
-    return {name: _finite(part) for name, part in document.items()}
+    return {name: finite(part) for name, part in document.items()}
 
 
 def _run(
@@ -109,12 +118,12 @@ def _dump(model: _Model | None) -> dict[str, Any] | None:
     return None if model is None else model.model_dump(mode="json")
 
 
-def _finite(value: Any) -> Any:  # noqa: ANN401 - any part of a document
+def finite(value: Any) -> Any:  # noqa: ANN401 - any part of a document
     """Return a part of a document with None for what JSON has no number for; fresh."""
     if isinstance(value, float):
         return value if math.isfinite(value) else None
     if isinstance(value, Mapping):
-        return {name: _finite(own) for name, own in value.items()}
+        return {name: finite(own) for name, own in value.items()}
     if isinstance(value, list | tuple):
-        return [_finite(own) for own in value]
+        return [finite(own) for own in value]
     return value

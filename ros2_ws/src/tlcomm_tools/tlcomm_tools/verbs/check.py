@@ -6,7 +6,7 @@ from typing import Final
 from tlcomm_core.method import Method
 from tlcomm_tools.audit.findings import Audit, audit_run
 from tlcomm_tools.audit.tasks import TaskFinding
-from tlcomm_tools.bag.origin import find_method, find_scenario
+from tlcomm_tools.bag.origin import find_method, find_pace, find_scenario
 from tlcomm_tools.bag.reader import read_run
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_number, format_table
@@ -33,6 +33,7 @@ def run(options: Namespace) -> Status:
         recorded.records,
         recorded.end_ns,
         recorded.damage,
+        find_pace(options.run, recorded, options.pace),
     )
     if options.json:
         print_json(audit.document())
@@ -68,6 +69,11 @@ def _format_audit(audit: Audit) -> str:
         parts += [format_table(("check", "violations"), broken), ""]
     if audit.note:
         parts.append(f"note: the bag was read only in part: {audit.note}")
+    parts += [
+        f"not available: {name}: {line}"
+        for name, lines in audit.unavailable.items()
+        for line in lines
+    ]
     if not audit.violations:
         return "\n".join([*parts, "verdict: ok"])
     shown = [f"  - {line}" for line in audit.violations[:_SHOWN_VIOLATIONS]]

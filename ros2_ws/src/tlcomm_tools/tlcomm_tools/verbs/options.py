@@ -5,6 +5,7 @@
 ``add_pace_argument``      how simulated time goes on
 ``add_seed_argument``      what chance is drawn from
 ``add_solver_argument``    how rounds are solved
+``add_view_argument``      whether a browser can look on
 ``positive_int``, ``not_negative_int``, ``positive_float``, ``positive_fraction``   types
 ``not_negative_float``, ``share``, ``seed``, ``team_size``   more types
 ``pace``, ``method``, ``solver``  more types
@@ -32,6 +33,7 @@ __all__ = [
     "add_recorded_arguments",
     "add_seed_argument",
     "add_solver_argument",
+    "add_view_argument",
     "method",
     "mission_end",
     "not_negative_float",
@@ -207,7 +209,7 @@ def add_seed_argument(parser: argparse.ArgumentParser, of: str = "all that is ra
 
 
 def add_recorded_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the run or bag, the scenario, and the method."""
+    """Add the run or bag, and what it may not say of itself."""
     parser.add_argument(
         "run", type=Path, metavar="RUN_OR_BAG", help="a run's folder, a bag's folder or MCAP file"
     )
@@ -223,6 +225,12 @@ def add_recorded_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         help=f"one of {', '.join(Method)} (default: as the bag says, else {Method.TEAM})",
     )
+    parser.add_argument(
+        "--pace",
+        type=pace,
+        metavar="lockstep|FACTOR",
+        help="how simulated time went on (default: as the bag says)",
+    )
 
 
 def add_pace_argument(parser: argparse.ArgumentParser) -> None:
@@ -233,6 +241,15 @@ def add_pace_argument(parser: argparse.ArgumentParser) -> None:
         default=Pace(None),
         metavar="lockstep|FACTOR",
         help="in lock step (the default), or at a factor of real time",
+    )
+
+
+def add_view_argument(parser: argparse.ArgumentParser) -> None:
+    """Add whether a browser can look on."""
+    parser.add_argument(
+        "--view",
+        action="store_true",
+        help="serve a page on this machine that shows the run as it goes on",
     )
 
 

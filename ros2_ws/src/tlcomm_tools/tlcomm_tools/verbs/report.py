@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Final
 
 from tlcomm_core.errors import InputError
-from tlcomm_tools.bag.origin import find_method, find_scenario
+from tlcomm_tools.bag.origin import find_method, find_pace, find_scenario
 from tlcomm_tools.bag.reader import read_run
 from tlcomm_tools.folder import replace_file
 from tlcomm_tools.report.document import report_document
@@ -39,7 +39,8 @@ def run(options: Namespace) -> Status:
     scenario = find_scenario(options.run, recorded, options.scenario)
     method = find_method(options.run, recorded, options.method)
     said = read_best_responses(options.run)
-    document = report_document(scenario, method, recorded, said)
+    pace = find_pace(options.run, recorded, options.pace)
+    document = report_document(scenario, method, recorded, said, pace)
     text = render_page(document)
     replace_file(options.out, text)
     verdict = document["audit"]["verdict"]

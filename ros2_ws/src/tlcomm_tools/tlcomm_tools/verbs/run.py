@@ -18,6 +18,7 @@ from tlcomm_tools.summary import format_summary
 from tlcomm_tools.verbs.options import (
     add_mission_arguments,
     add_pace_argument,
+    add_view_argument,
     mission_end,
     print_json,
 )
@@ -32,6 +33,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("scenario", type=Path, metavar="SCENARIO", help="a scenario file (YAML)")
     add_mission_arguments(parser)
     add_pace_argument(parser)
+    add_view_argument(parser)
 
 
 def run(options: Namespace) -> Status:
@@ -58,9 +60,10 @@ def run_scenario(scenario: Scenario, options: Namespace) -> Status:
         rounds=rounds,
         until_s=until_s,
         out=options.out,
+        has_view=options.view,
     )
     with Progress.towards(rounds, limit_s, options.method) as progress:
-        report = run_mission(what, progress.show)
+        report = run_mission(what, progress.show, lambda line: progress.tell(f"tlcomm: {line}"))
     if options.json:
         print_json({**report.result, "folder": str(report.folder.path)})
     else:

@@ -1,6 +1,9 @@
 // The charts, by Plotly.
 
 const REDRAW_MS = 150;
+// While the run goes on, charts are drawn anew no sooner than so; in a hidden page not at all.
+const FOLLOW_MS = 1000;
+const GROW_MS = 4000;
 const CONFIG = { responsive: true, displayModeBar: false };
 // Where a finger scrolls the page, it can't also zoom.
 const DRAG = matchMedia("(pointer: coarse)").matches ? false : "zoom";
@@ -19,7 +22,7 @@ function layoutOf(x, y, more) {
     paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)",
     font: { color: styled("--text"), size: 12, family: "system-ui, sans-serif" },
     margin: { l: 50, r: 10, t: 10, b: 40 }, height: 300, xaxis: x, yaxis: y,
-    dragmode: DRAG,
+    dragmode: DRAG, uirevision: "kept",
     legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0, traceorder: "normal" },
     hoverlabel: { bgcolor: styled("--card"), font: { color: styled("--text") } }, ...more,
   };
@@ -99,7 +102,7 @@ function drawSchedule() {
   const layout = layoutOf(
     axis("time (s)", { range: [first, last] }),
     axis("", { type: "category", categoryarray: names, range: [names.length - 0.4, -1.4] }),
-    { barmode: "overlay", height: 150 + 26 * names.length, shapes: scheduleShapes(first, last), ...windowNames(first, last) },
+    { barmode: "overlay", height: 150 + 26 * names.length, shapes: scheduleShapes(first, last), uirevision: first, ...windowNames(first, last) },
   );
   Plotly.react(byId("schedule"), traces, layout, CONFIG);
 }
@@ -134,7 +137,7 @@ function scheduleShapes(first, last) {
 function windowNames(first, last) {
   const annotations = windowsBetween(first, last).map((r) => ({
     x: r * RUN.period_s, xref: "x", y: 1, yref: "paper", yanchor: "top", xanchor: "left",
-    showarrow: false, text: `window ${r}${MISSED.has(r) ? " missed" : ""}`,
+    showarrow: false, text: `window ${r}${isMissed(r) ? " missed" : ""}`,
     font: { size: 11, color: styled("--quiet") },
   }));
   return { annotations };
@@ -233,7 +236,7 @@ function drawAll() {
 
 let isDue = false;
 onChange((changes) => {
-  if ("round" in changes) {
+  if ("round" in changes && ROUNDS.length) {
     drawPotentials();
     drawCosts();
   }
@@ -241,8 +244,19 @@ onChange((changes) => {
   isDue = true;
   setTimeout(() => {
     isDue = false;
-    drawSchedule();
-  }, REDRAW_MS);
+    if (!document.hidden) drawSchedule();
+  }, view.isFollowing ? FOLLOW_MS : REDRAW_MS);
 });
+let isGrown = false;
+function drawGrown() {
+  if (isGrown || document.hidden) return;
+  isGrown = true;
+  setTimeout(() => {
+    isGrown = false;
+    drawAll();
+  }, growths > 1 ? GROW_MS : 0);
+}
+onGrowth(drawGrown);
+document.addEventListener("visibilitychange", drawGrown);
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawAll);
 drawAll();

@@ -77,7 +77,11 @@ const linksAt = (time) => DATA.links.filter((link) => link[2] <= time && time < 
 const startOf = (round) => round.started_s ?? round.planned_s;
 const endOf = (round) => startOf(round) + (RUN.has_meetings ? RUN.duration_s : 0);
 const hasMember = (round, name) => round.members.some((member) => member.agent === name);
-const BY_START = [...ROUNDS].sort((one, other) => startOf(one) - startOf(other));
+let BY_START = [];
+function sortRounds() {
+  BY_START = [...ROUNDS].sort((one, other) => startOf(one) - startOf(other));
+}
+sortRounds();
 
 /** The meetings that come next: at one time there are several, of pairs. */
 function nextMeetings(time) {
@@ -99,9 +103,8 @@ const obstaclesAt = (time) => {
 };
 
 const windowAt = (time) => Math.floor(time / RUN.period_s + 1e-9);
-const MISSED = new Set(
-  DATA.audit.windows.filter((own) => RUN.keeps_windows && !own.satisfied).map((own) => own.round),
-);
+const isMissed = (number) =>
+  RUN.keeps_windows && DATA.windows.some((own) => own.round === number && !own.satisfied);
 
 /** What a round is called: by its number, and by who meets unless all do. */
 function roundName(round) {
