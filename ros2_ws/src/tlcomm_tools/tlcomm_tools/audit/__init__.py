@@ -8,6 +8,7 @@
 ``progress``    what a word says of a task: the runtime monitor's verdict
 ``tasks``       each task's verdict and satisfactions
 ``trespass``    whether agents kept out of what their tasks forbid
+``membership``  what is of nobody whom the scenario names, and is left out
 ``finiteness``  what isn't a number, and is left out
 ``motion``      whether agents drove as they can: no faster, and without jumps
 ``clearance``   whether agents kept clear of obstacles, which may come and go

@@ -6,7 +6,8 @@
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
-from typing import Protocol, TypeVar
+from itertools import filterfalse
+from typing import Final, Protocol, TypeVar
 
 from tlcomm_core.records import EstimateRecord, OfferRecord, RunRecords, StrategyRecord
 from tlcomm_core.world.observation import Odometry
@@ -24,11 +25,15 @@ class _Stamped(Protocol):
 
 _Own = TypeVar("_Own", bound=_Stamped)
 
+# In any unit here, more than that is no measure of anything; its square is still finite.
+_MOST: Final = 1e12
+
 
 def keep_finite(records: RunRecords) -> tuple[RunRecords, tuple[str, ...]]:
     """Return the records without those that hold NaN or infinities, and a line per kind and agent.
 
-    Nothing can be reckoned with them: a comparison with NaN holds for no violation.
+    Nothing can be reckoned with them: a comparison with NaN holds for no violation. A number that
+    is too large for any measure, and whose square might be infinite, is taken for infinite.
     """
     odometry, odometry_lines = _parted(records.odometry, _of_odometry, "odometry")
     strategies, strategy_lines = _parted(records.strategies, _of_strategy, "strategy")
@@ -47,19 +52,24 @@ def _parted(
     kept: list[_Own] = []
     bad: dict[str, list[_Own]] = {}
     for entry in entries:
-        if all(map(math.isfinite, numbers_of(entry))):
+        if all(map(_is_measure, numbers_of(entry))):
             kept.append(entry)
         else:
             bad.setdefault(entry.agent, []).append(entry)
     return kept, [
-        f"{agent}: {own[0].stamp_ns * 1e-9:.3f} s: {what} with {_first_bad(numbers_of(own[0]))!r}, "
-        f"not a finite number, {len(own)} in all"
+        f"{agent}: {own[0].stamp_ns * 1e-9:.3f} s: {what} with "
+        f"{_fault(next(filterfalse(_is_measure, numbers_of(own[0]))))}, {len(own)} in all"
         for agent, own in sorted(bad.items())
     ]
 
 
-def _first_bad(numbers: Iterator[float]) -> float:
-    return next(number for number in numbers if not math.isfinite(number))
+def _is_measure(number: float) -> bool:
+    # NaN isn't less than anything.
+    return abs(number) < _MOST
+
+
+def _fault(number: float) -> str:
+    return f"{number!r}, {'too large a' if math.isfinite(number) else 'not a finite'} number"
 
 
 def _of_odometry(own: Odometry) -> Iterator[float]:

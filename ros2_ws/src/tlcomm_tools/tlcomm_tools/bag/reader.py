@@ -102,7 +102,7 @@ def find_files(path: Path) -> tuple[Path, ...]:
         files = _listed_files(folder) or tuple(sorted(folder.glob("*.mcap")))
         if files:
             return files
-    if next(path.glob("**/*.db3"), None):
+    if any(next(folder.glob("*.db3"), None) for folder in (path, path / "bag")):
         raise InputError(f"{str(path)!r} is an SQLite bag; only MCAP bags can be read")
     raise InputError(f"{str(path)!r} holds no bag (expected *.mcap in it or in its folder bag/)")
 
@@ -113,7 +113,7 @@ def _listed_files(folder: Path) -> tuple[Path, ...]:
         document = yaml.load((folder / "metadata.yaml").read_text("utf-8"), _Loader)  # noqa: S506
         names = document["rosbag2_bagfile_information"]["relative_file_paths"]
         paths = tuple(folder / name for name in names if str(name).endswith(".mcap"))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError, KeyError, TypeError):
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, RecursionError, KeyError, TypeError):
         return ()
     return paths if all(path.is_file() for path in paths) else ()
 
@@ -160,12 +160,14 @@ def _require_run(path: Path, containers: Iterable[Container]) -> None:
     topics = {channel.topic for held in containers for channel in held.channels.values()}
     needed = ("/connectivity", "/odom", "/task_event")
     missing = [name for name in needed if not any(topic.endswith(name) for topic in topics)]
+    damage = "".join(f" ({held.damage})" for held in containers if held.damage)
     if missing:
         raise InputError(
-            f"{str(path)!r} is no bag of a tlcomm run: it has no topic {missing[0].lstrip('/')!r}"
+            f"{str(path)!r} is no bag of a tlcomm run: it has no topic "
+            f"{missing[0].lstrip('/')!r}{damage}"
         )
     if not any(held.messages for held in containers):
-        raise InputError(f"{str(path)!r} is empty: it holds no messages of a run")
+        raise InputError(f"{str(path)!r} is empty: it holds no messages of a run{damage}")
 
 
 def _gather(path: Path, containers: list[Container]) -> RecordedRun:
@@ -274,5 +276,11 @@ class _Collected:
         self.records.heard += wire.read_hearing(message, agent)
 
     def _take_connectivity(self, message: wire.DecodedMessage) -> None:
-        self.agents = self.agents or tuple(message.agents)
-        self.records.connectivity.append(wire.read_connectivity(message))
+        names, graph = tuple(message.agents), wire.read_connectivity(message)
+        self.agents = self.agents or names
+        if names != self.agents:
+            raise ValueError(f"'/connectivity' is of {names!r}, and was of {self.agents!r} before")
+        for pair in graph.edges:
+            if not pair[0] < pair[1] < len(names):
+                raise ValueError(f"'/connectivity' links {pair!r}, no pair of {len(names)} agents")
+        self.records.connectivity.append(graph)

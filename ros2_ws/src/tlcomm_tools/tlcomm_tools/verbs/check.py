@@ -35,7 +35,7 @@ def run(options: Namespace) -> Status:
             recorded.records,
             recorded.end_ns,
             recorded.damage,
-            find_pace(options.run, recorded),
+            find_pace(options.run, recorded, options.pace),
         )
     if options.json:
         print_json(audit.document())
