@@ -134,8 +134,13 @@ def _be_recorder(arguments: argparse.Namespace, notifier: Notifier) -> int:
         "seed": str(arguments.seed),
         "pace": arguments.pace,
     }
-    method = parse_method(arguments.method)
-    settings = recorder.RecorderSettings(arguments.bag, scenario, method, notes)
+    settings = recorder.RecorderSettings(
+        bag=arguments.bag,
+        scenario=scenario,
+        method=parse_method(arguments.method),
+        is_lockstep=parse_pace(arguments.pace).is_lockstep,
+        notes=notes,
+    )
     return recorder.run(settings, spin, notifier)
 
 
