@@ -136,8 +136,8 @@ class LockStepConductor(Conductor):
             outputs.append(self._tick_recorder(self._settled_ns))
         self._step = step
         self._arrived = step.arrived
-        shown = [*self._clocks_until(step.time_ns), *map(Show, step.observations)]
-        self._later = self._noted(shown)
+        self._later = self._noted(self._clocks_until(step.time_ns))
+        self._later += self._noted(Show(observation) for observation in step.observations)
         outputs += self._later
         outputs += [self._tick(agent, step) for agent in step.ticked]
         return outputs

@@ -22,6 +22,7 @@ from tlcomm_core.result import RunFacts, result_document
 from tlcomm_core.scenario.loader import dumps
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import seconds
+from tlcomm_tools.bag.compression import DEFAULT, Compression
 from tlcomm_tools.bag.reader import RecordedRun, read_run
 from tlcomm_tools.folder import RunFolder
 from tlcomm_tools.limit import time_limit_s
@@ -55,6 +56,7 @@ class RunOptions:
         rounds: the run ends D_c after the meeting of this round, or ``None``.
         until_s: the run ends at this simulated time, or ``None``.
         out: folder to write to, or ``None`` for a new one.
+        compression: of the bag.
     """
 
     scenario: Scenario
@@ -65,6 +67,7 @@ class RunOptions:
     rounds: int | None
     until_s: float | None
     out: Path | None
+    compression: Compression = DEFAULT
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +133,7 @@ def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
         command = (sys.executable, *_PROCESS, *arguments)
         return ProcessSpec(name, command, folder.logs / f"{name}.log", stop_last)
 
-    bag = ("--bag", str(folder.bag.absolute()))
+    bag = ("--bag", str(folder.bag.absolute()), "--compression", options.compression.value)
     return [
         spec("recorder", "recorder", *bag, *world, *coordination, stop_last=True),
         spec("sim", "sim", *common, *end),

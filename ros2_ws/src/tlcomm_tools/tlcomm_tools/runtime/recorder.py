@@ -40,6 +40,7 @@ from tlcomm_core.method import Method
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import NANOSECONDS_PER_SECOND
 from tlcomm_msgs.msg import Tick, TickReply
+from tlcomm_tools.bag.compression import DEFAULT, Compression
 from tlcomm_tools.bag.definitions import load_typestore, read_definition
 from tlcomm_tools.bag.topics import Topic, recorded_topics
 from tlcomm_tools.bag.writer import BagWriter
@@ -75,6 +76,7 @@ class RecorderSettings:
         scenario: what is run.
         method: how.
         is_lockstep: whether it is ticked, or else runs freely.
+        compression: of the bag's chunks.
         notes: what the bag says about the run besides its messages.
     """
 
@@ -82,6 +84,7 @@ class RecorderSettings:
     scenario: Scenario
     method: Method = Method.TEAM
     is_lockstep: bool = True
+    compression: Compression = DEFAULT
     notes: dict[str, str] = field(default_factory=dict)
 
     @property
@@ -127,7 +130,9 @@ def _make_mirror(settings: RecorderSettings) -> Mirror:
 def _open_bag(settings: RecorderSettings, mirror: Mirror) -> BagWriter:
     topics = (*settings.topics, *mirror.topics)
     definitions = {topic.type: read_definition(mirror.store, topic.type) for topic in topics}
-    return BagWriter(settings.bag, topics, definitions, settings.notes)
+    return BagWriter(
+        settings.bag, topics, definitions, settings.notes, compression=settings.compression
+    )
 
 
 def _record(

@@ -7,7 +7,11 @@ from typing import Final
 from tlcomm_core.errors import InputError
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_tools.status import Status
-from tlcomm_tools.verbs.options import add_mission_arguments, add_pace_argument
+from tlcomm_tools.verbs.options import (
+    add_compression_argument,
+    add_mission_arguments,
+    add_pace_argument,
+)
 from tlcomm_tools.verbs.run import run_scenario
 
 __all__ = ["EXAMPLE", "add_arguments", "run"]
@@ -21,6 +25,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the verb's arguments."""
     add_mission_arguments(parser)
     add_pace_argument(parser)
+    add_compression_argument(parser)
 
 
 def run(options: Namespace) -> Status:
