@@ -3,6 +3,7 @@
 ``RunOptions``   what is run
 ``RunReport``    how it went
 ``run_mission``  runs it
+``launch``       its processes alone
 """
 
 import os
@@ -38,7 +39,7 @@ from tlcomm_tools.runtime.supervisor import (
 )
 from tlcomm_tools.status import Status
 
-__all__ = ["RunOptions", "RunReport", "run_mission"]
+__all__ = ["RunOptions", "RunReport", "launch", "run_mission"]
 
 _PROCESS = ("-P", "-m", "tlcomm_tools.runtime.process")
 
@@ -98,8 +99,6 @@ def run_mission(options: RunOptions, on_progress: Callable[[float, int], None]) 
         InputError: the folder can't be used, or the processes are too many for this machine.
     """
     folder = RunFolder.create(options.scenario.name, options.method, options.out)
-    folder.write_scenario(dumps(options.scenario))
-    folder.logs.mkdir()
     last = Progress(0.0, 0)
 
     def note(_: str, news: Note) -> None:
@@ -108,20 +107,43 @@ def run_mission(options: RunOptions, on_progress: Callable[[float, int], None]) 
             last = news
             on_progress(news.sim_s, news.meetings_ended)
 
-    specs = _specs(options, folder)
     begun_s = time.monotonic()
-    with claim_domain() as domain:
-        environment = process_environment(os.environ, domain, folder.logs.absolute(), len(specs))
-        outcome = run_processes(specs, environment, note)
+    outcome = launch(options, folder, note)
     wall_s = time.monotonic() - begun_s
     return _report(options, folder, outcome, wall_s, last)
 
 
-def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
+def launch(
+    options: RunOptions,
+    folder: RunFolder,
+    on_note: Callable[[str, Note], None],
+    *,
+    is_recorded: bool = True,
+) -> RunOutcome:
+    """Run a scenario's processes to their end.
+
+    Args:
+        options: what to run.
+        folder: where scenario, logs and bag go.
+        on_note: called with a process's name and each of its notes.
+        is_recorded: whether there is a recorder; without one no bag is left, and no results.
+
+    Raises:
+        InputError: the processes are too many for this machine.
+    """
+    folder.write_scenario(dumps(options.scenario))
+    folder.logs.mkdir()
+    specs = _specs(options, folder, is_recorded=is_recorded)
+    with claim_domain() as domain:
+        environment = process_environment(os.environ, domain, folder.logs.absolute(), len(specs))
+        return run_processes(specs, environment, on_note)
+
+
+def _specs(options: RunOptions, folder: RunFolder, *, is_recorded: bool) -> list[ProcessSpec]:
     """Return the recorder, the sim and the agents, in the order in which they start."""
     scenario = ("--scenario", str(folder.scenario.absolute()))
     world = (*scenario, "--seed", str(options.seed), "--pace", str(options.pace))
-    common = (*world, "--recorder")
+    common = (*world, "--recorder") if is_recorded else world
     solver, method = options.method.solver(options.solver).name, options.method.value
     coordination = ("--solver", solver, "--method", method)
     limit_s = time_limit_s(options.scenario, options.rounds, options.until_s, options.method)
@@ -134,8 +156,9 @@ def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
         return ProcessSpec(name, command, folder.logs / f"{name}.log", stop_last)
 
     bag = ("--bag", str(folder.bag.absolute()), "--compression", options.compression.value)
+    recorder = spec("recorder", "recorder", *bag, *world, *coordination, stop_last=True)
     return [
-        spec("recorder", "recorder", *bag, *world, *coordination, stop_last=True),
+        *([recorder] if is_recorded else []),
         spec("sim", "sim", *common, *end),
         *(
             spec(name, "agent", "--name", name, *coordination, *common)
