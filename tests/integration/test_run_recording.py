@@ -5,13 +5,13 @@ import os
 import resource
 import signal
 import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from rosbags.highlevel import AnyReader
 
+from support.command import CORRIDOR, command
 from tlcomm_core.errors import InputError
 from tlcomm_core.scenario.loader import loads
 from tlcomm_tools.audit.findings import audit_run
@@ -20,13 +20,7 @@ from tlcomm_tools.bag.topics import mirror_topics, recorded_topics
 
 pytest.importorskip("rclpy", reason="needs ROS 2: run by scripts/test")
 
-SCENARIO = Path(__file__).parents[2] / "scenarios" / "corridor.yaml"
 AGENTS = ("west", "carrier", "east")
-
-
-def command(*arguments: str) -> list[str]:
-    """Return the command line of a verb."""
-    return [sys.executable, "-m", "tlcomm_tools", *arguments]
 
 
 def processes_of(folder: Path, role: str = "") -> list[int]:
@@ -47,7 +41,7 @@ def processes_of(folder: Path, role: str = "") -> list[int]:
 def start_run(folder: Path) -> "subprocess.Popen[str]":
     """Start a run that goes on until something ends it."""
     return subprocess.Popen(
-        command("run", str(SCENARIO), "--until", "1e6", "--out", str(folder)),
+        command("run", CORRIDOR, "--until", "1e6", "--out", str(folder)),
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
         text=True,
@@ -85,16 +79,6 @@ def assert_readable(folder: Path) -> None:
     assert audit_run(scenario, run.method, run.records, run.end_ns).violations == ()
 
 
-@pytest.fixture(scope="module")
-def finished(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
-    """Return a finished run's folder and what it printed."""
-    folder = tmp_path_factory.mktemp("finished") / "run"
-    arguments = ("run", str(SCENARIO), "--rounds", "3", "--out", str(folder), "--json")
-    done = subprocess.run(command(*arguments), capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    return folder, done.stdout
-
-
 def test_a_run_prints_its_result(finished: tuple[Path, str]) -> None:
     """--json is the file's content and the folder's name, and nothing else."""
     folder, printed = finished
@@ -113,7 +97,7 @@ def test_a_run_leaves_no_process(finished: tuple[Path, str]) -> None:
 def test_run_and_simulation_are_one(finished: tuple[Path, str], tmp_path: Path) -> None:
     """The event log from the bag equals the simulation's byte for byte, and so do the results."""
     folder, _ = finished
-    arguments = ("simulate", str(SCENARIO), "--rounds", "3", "--out", str(tmp_path / "run"))
+    arguments = ("simulate", CORRIDOR, "--rounds", "3", "--out", str(tmp_path / "run"))
     subprocess.run(command(*arguments), capture_output=True, check=True)
     names = ("events.jsonl", "scenario.yaml")
     for name in names:

@@ -155,6 +155,28 @@ def test_tick_waits_for_all_that_it_counts(surroundings: Surroundings, last: str
     assert answer.published == published
 
 
+def test_what_it_has_heard_it_tells_at_the_end(surroundings: Surroundings) -> None:
+    """All of it, counted among what it has published."""
+    hearings: list[Any] = []
+    surroundings.node.create_subscription(msg.Hearing, f"/{OWN}/hearing", hearings.append, 10)
+    surroundings.show()
+    surroundings.response_pub.publish(response())
+    surroundings.tick(1, (1, 1, 1))
+    surroundings.until(lambda: surroundings.answered(1))
+    assert not hearings
+    surroundings.tick(2, (1, 1, 1), stop=True)
+    surroundings.until(lambda: surroundings.answered(2) and bool(hearings))
+    (told,) = hearings
+    assert (told.agent, told.agents, list(told.sender)) == (OWN, [PEER], [0])
+    assert list(told.topic) == [msg.Hearing.BEST_RESPONSE]
+    assert (list(told.said), list(told.heard)) == ([0], [10_000_000])
+    first, last = (
+        next(own.published for own in surroundings.answers if own.sequence == sequence)
+        for sequence in (1, 2)
+    )
+    assert last - first == 2, "what was undelivered, and what was heard"
+
+
 def test_a_tick_waits_for_the_readings_that_it_counts(context: Context, tmp_path: Path) -> None:
     """If there is anything to measure; then the agent says what it takes the field to be."""
     scenario = tmp_path / "field.yaml"

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
 
 from tlcomm_agent import wire, wire_messages
-from tlcomm_agent.wire_fields import WireError
 from tlcomm_core.agent.actions import (
     Drive,
     ReportEstimate,
@@ -32,6 +31,8 @@ from tlcomm_core.protocol.messages import (
 )
 from tlcomm_core.protocol.size import size_bytes
 from tlcomm_core.records import EstimateRecord, RoundTiming, StrategyRecord, TaskRecord
+from tlcomm_core.wire.fields import WireError
+from tlcomm_core.wire.team_messages import decode_message
 from tlcomm_core.world.observation import Connectivity, Odometry, Reading
 from tlcomm_msgs import msg
 from tlcomm_sim.wire import encode_connectivity, encode_odometry, encode_reading
@@ -112,7 +113,7 @@ def test_what_agents_say_survives(message: TeamMessage, stamp_ns: int) -> None:
     topic, same = wire.encode_action(action, "a", stamp_ns)
     assert isinstance(encoded, wire_messages.team_types(measures=True)[topic])
     assert same == encoded
-    assert wire_messages.decode_message(over_the_wire(encoded)) == (message, stamp_ns)
+    assert decode_message(over_the_wire(encoded), topic) == (message, stamp_ns)
 
 
 @given(
@@ -301,8 +302,10 @@ def assign(message: RosMessage, path: str, value: object) -> RosMessage:
 )
 def test_malformed_messages_are_refused(message: RosMessage, path: str, value: object) -> None:
     """Names, sizes, stamps and numbers out of their range are refused by name."""
+    types = wire_messages.team_types(measures=True)
+    topic = next(topic for topic, kind in types.items() if isinstance(message, kind))
     with pytest.raises(WireError):
-        wire_messages.decode_message(assign(message, path, value))
+        decode_message(assign(message, path, value), topic)
 
 
 @pytest.mark.parametrize(

@@ -8,8 +8,8 @@ from builtin_interfaces.msg import Time
 from nav_msgs.msg import OccupancyGrid
 from rclpy.serialization import deserialize_message, serialize_message
 
-from tlcomm_agent.wire_fields import WireError
 from tlcomm_agent.wire_map import decode_map
+from tlcomm_core.wire.fields import WireError
 from tlcomm_core.workspace.grid import Grid
 from tlcomm_core.world.observation import Occupancy
 from tlcomm_sim.wire import encode_occupancy

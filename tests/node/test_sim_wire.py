@@ -11,6 +11,7 @@ from rosgraph_msgs.msg import Clock
 from tlcomm_agent.wire import decode_odometry, encode_drive
 from tlcomm_core.agent.actions import Drive
 from tlcomm_core.geometry import Pose
+from tlcomm_core.wire.world_messages import decode_command
 from tlcomm_core.world.observation import Odometry
 from tlcomm_msgs import msg
 from tlcomm_sim import wire
@@ -47,7 +48,7 @@ def test_yaws_are_exact_all_around() -> None:
 def test_the_sim_reads_what_agents_command(linear_mps: float, angular_radps: float) -> None:
     """A command comes back as its velocities."""
     message = encode_drive(Drive(linear_mps, angular_radps), "a", 0)
-    assert wire.decode_command(message) == (linear_mps, angular_radps)
+    assert decode_command(message) == (linear_mps, angular_radps)
 
 
 @given(STAMPS_NS)

@@ -67,7 +67,7 @@ def heard(own: Radio, said: list[Said], stops_ns: list[int]) -> list[tuple[int, 
     while stops_ns or own.next_due_ns is not None:
         now_ns = min([time for time in (own.next_due_ns, *stops_ns[:1]) if time is not None])
         stops_ns = [stop_ns for stop_ns in stops_ns if stop_ns > now_ns]
-        found += [(now_ns, message) for message in own.heard(now_ns)]
+        found += [(now_ns, each.message) for each in own.heard(now_ns)]
     return found
 
 

@@ -13,6 +13,7 @@ from tlcomm_core.game.algorithm import solve
 from tlcomm_core.game.solver import EXACT
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.protocol.actions import CountIgnored, SendMessage
+from tlcomm_core.protocol.meeting_graph import meeting_graph
 from tlcomm_core.protocol.messages import (
     BestResponse,
     Confirmation,
@@ -20,7 +21,7 @@ from tlcomm_core.protocol.messages import (
     PlanOffer,
     Proposal,
 )
-from tlcomm_core.protocol.negotiation import Phase, _meeting_graph
+from tlcomm_core.protocol.negotiation import Phase
 
 
 def run(meeting: Meeting, **changes: float) -> FakeNetwork:
@@ -64,7 +65,7 @@ def test_all_agree_on_the_reference(shape: str, count: int) -> None:
         meeting = sample_meeting(shape, count, seed)
         network = run(meeting)
         assert_all_agreed(network, reference(meeting))
-        _, hops = _meeting_graph(meeting.offers, meeting.team)
+        _, hops = meeting_graph(meeting.offers, meeting.team)
         exchanges = hops * solve(meeting.problem).search.iteration
         assert set(said_by(network, BestResponse).values()) == {exchanges}
         assert set(said_by(network, Confirmation).values()) <= set(range(1, count + 1))
@@ -87,7 +88,7 @@ def test_all_agree_on_the_best_proposal(shape: str, count: int, seed: int) -> No
     network, expected = run(meeting), reference(meeting)
     assert_all_agreed(network, expected)
     assert expected.bound_s == pytest.approx(expected.potential_s, abs=1e-6)
-    _, hops = _meeting_graph(meeting.offers, meeting.team)
+    _, hops = meeting_graph(meeting.offers, meeting.team)
     assert set(said_by(network, Proposal).values()) == {hops}
     assert set(said_by(network, BestResponse).values()) == {hops}
 

@@ -1,11 +1,13 @@
-"""The command, run in this process.
+"""The command, run in this process or another.
 
 ``CORRIDOR``  a small scenario's file
-``run``       one command
+``run``       one command, here
 ``refusal``   what a command that can't be carried out says
+``command``   the command line for another process
 """
 
 import re
+import sys
 from pathlib import Path
 from typing import Final
 
@@ -13,7 +15,7 @@ import pytest
 
 from tlcomm_tools.cli import main
 
-__all__ = ["CORRIDOR", "refusal", "run"]
+__all__ = ["CORRIDOR", "command", "refusal", "run"]
 
 CORRIDOR: Final = str(Path(__file__).parents[2] / "scenarios" / "corridor.yaml")
 
@@ -31,3 +33,8 @@ def refusal(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
     assert (status, out) == (2, "")
     assert re.fullmatch(r"tlcomm: error: .*\n", err)
     return err
+
+
+def command(*arguments: str) -> list[str]:
+    """Return the command line of a verb."""
+    return [sys.executable, "-m", "tlcomm_tools", *arguments]

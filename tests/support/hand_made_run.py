@@ -1,7 +1,7 @@
 """A run made by hand: two agents on a line, two windows kept, both tasks satisfied twice."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,15 @@ from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose, quaternion_from_yaw
 from tlcomm_core.protocol.messages import Confirmation
 from tlcomm_core.protocol.size import size_bytes
-from tlcomm_core.records import EstimateRecord, RunRecords, StrategyRecord, TaskRecord
+from tlcomm_core.protocol.topics import TEAM_TOPICS
+from tlcomm_core.records import (
+    EstimateRecord,
+    HeardRecord,
+    RunRecords,
+    SaidRecord,
+    StrategyRecord,
+    TaskRecord,
+)
 from tlcomm_core.scenario.loader import dumps, loads
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import NANOSECONDS_PER_SECOND, nanoseconds
@@ -30,6 +38,7 @@ __all__ = [
     "MESSAGES",
     "SHARE",
     "UNDELIVERED",
+    "Change",
     "hand_made_records",
     "hand_made_scenario",
     "serialize_run",
@@ -37,10 +46,15 @@ __all__ = [
     "write_bag",
 ]
 
+Change = Callable[[str, Any], None]
+"""Changes a message, given its topic."""
+
 SHARE = Path(__file__).parents[2] / "ros2_ws" / "src" / "tlcomm_msgs"
 AGENTS = ("east", "west")
 END_S = 25.0
-MESSAGES = {"east": 3, "west": 2}
+# Each says a confirmation a second after these meetings begin, and the other hears it.
+_SAID_S = {"east": (1.0, 11.0, 21.0), "west": (1.0, 11.0)}
+MESSAGES = {agent: len(times_s) for agent, times_s in _SAID_S.items()}
 BYTES = {
     agent: count * size_bytes(Confirmation(agent, 1, 1, 7, (agent,)))
     for agent, count in MESSAGES.items()
@@ -69,6 +83,7 @@ _MIDDLE = {"east": 3.75, "west": 3.25}
 _AWAY = {"east": 6.25, "west": 1.25}
 _REGION = {"east": "right", "west": "left"}
 _PERIOD_S = 10.0
+_LATENCY_S = 0.005
 
 
 def hand_made_scenario() -> Scenario:
@@ -82,7 +97,13 @@ def hand_made_records() -> RunRecords:
         messages_sent=dict(MESSAGES),
         bytes_sent=dict(BYTES),
         messages_undelivered={agent: dict(counts) for agent, counts in UNDELIVERED.items()},
+        heard_until_ns=dict.fromkeys(AGENTS, nanoseconds(END_S)),
     )
+    for agent, hearer in zip(AGENTS, reversed(AGENTS), strict=True):
+        for time_s in _SAID_S[agent]:
+            said_ns, heard_ns = nanoseconds(time_s), nanoseconds(time_s + _LATENCY_S)
+            records.said.append(SaidRecord(said_ns, agent, "confirmation"))
+            records.heard.append(HeardRecord(heard_ns, hearer, agent, "confirmation", said_ns))
     for number in (0, 1):
         _add_round(records, number)
     for agent in AGENTS:
@@ -91,7 +112,14 @@ def hand_made_records() -> RunRecords:
         _add_agreement(records, agent, 3)
         records.odometry += [_standing(agent, _MIDDLE[agent], t) for t in (23.0, 24.0, 25.0)]
     records.connectivity.append(Connectivity(nanoseconds(20.0), ((0, 1),), connected=True))
-    for entries in (records.odometry, records.tasks, records.strategies, records.connectivity):
+    for entries in (
+        records.odometry,
+        records.tasks,
+        records.strategies,
+        records.connectivity,
+        records.said,
+        records.heard,
+    ):
         entries.sort(key=lambda entry: entry.stamp_ns)
     return records
 
@@ -183,25 +211,39 @@ def task(  # noqa: D103 - says itself
 
 
 def write_bag(
-    folder: Path, records: RunRecords, *, with_scenario: bool = True, method: str | None = None
+    folder: Path,
+    records: RunRecords,
+    *,
+    with_scenario: bool = True,
+    method: str | None = None,
+    change: Change | None = None,
+    **more_notes: str,
 ) -> BagWriter:
     """Write records into a bag as the recorder does; return the closed writer.
 
     Args:
         folder: to be made.
         records: what to write.
-        with_scenario: whether the bag says which it is.
+        with_scenario: whether the bag says which it is, and that it was in lock step.
         method: which the bag says; ``None`` for a bag from before there was more than one.
+        change: of the messages, each by its topic and decoded, before it is written.
+        more_notes: what else the bag says.
     """
     store = load_typestore(SHARE)
     topics = recorded_topics(AGENTS)
     definitions = {topic.type: read_definition(store, topic.type) for topic in topics}
-    notes = {"scenario": dumps(hand_made_scenario())} if with_scenario else {}
-    notes |= {} if method is None else {"method": method}
+    notes = {"scenario": dumps(hand_made_scenario()), "pace": "lockstep"} if with_scenario else {}
+    notes |= ({} if method is None else {"method": method}) | more_notes
     numbers = {topic.name: number for number, topic in enumerate(topics)}
     with BagWriter(folder, topics, definitions, notes) as writer:
         for name, stamp_ns, data in serialize_run(store, records):
-            writer.write(numbers[name], stamp_ns, data)
+            if change is None:
+                writer.write(numbers[name], stamp_ns, data)
+                continue
+            kind = topics[numbers[name]].type
+            message = store.deserialize_cdr(data, kind)
+            change(name, message)
+            writer.write(numbers[name], stamp_ns, bytes(store.serialize_cdr(message, kind)))
     return writer
 
 
@@ -226,9 +268,11 @@ def serialize_run(store: Typestore, records: RunRecords) -> Iterable[tuple[str, 
         for agent, counts in records.messages_undelivered.items()
     ]
     rows += [
-        (f"/{agent}/confirmation", 0, make.confirmation(agent))
-        for agent, count in records.messages_sent.items()
-        for _ in range(count)
+        (f"/{own.agent}/confirmation", own.stamp_ns, make.confirmation(own)) for own in records.said
+    ]
+    rows += [
+        (f"/{agent}/hearing", until_ns, make.hearing(agent, until_ns, records.heard))
+        for agent, until_ns in records.heard_until_ns.items()
     ]
     return sorted(rows, key=lambda row: row[1])
 
@@ -357,13 +401,29 @@ class _Messages:
             counts=np.array(list(counts.values()), dtype=np.uint64),
         )
 
-    def confirmation(self, agent: str) -> bytes:
+    def confirmation(self, own: SaidRecord) -> bytes:
         return self._bytes(
             "tlcomm_msgs/msg/Confirmation",
-            header=self._header(0),
-            sender=agent,
+            header=self._header(own.stamp_ns),
+            sender=own.agent,
             round=1,
             iteration=1,
             digest=7,
-            confirmed=[agent],
+            confirmed=[own.agent],
+        )
+
+    def hearing(self, agent: str, until_ns: int, heard: Iterable[HeardRecord]) -> bytes:
+        own = [record for record in heard if record.agent == agent]
+        senders = sorted({record.sender for record in own})
+        indices = [senders.index(record.sender) for record in own]
+        topics = [TEAM_TOPICS.index(record.topic) for record in own]
+        return self._bytes(
+            "tlcomm_msgs/msg/Hearing",
+            header=self._header(until_ns),
+            agent=agent,
+            agents=senders,
+            sender=np.array(indices, dtype=np.uint16),
+            topic=np.array(topics, dtype=np.uint8),
+            said=np.array([record.said_ns for record in own], dtype=np.int64),
+            heard=np.array([record.stamp_ns for record in own], dtype=np.int64),
         )

@@ -4,7 +4,7 @@
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -25,6 +25,8 @@ from tlcomm_core.protocol.messages import (
     Proposal,
     TeamMessage,
 )
+from tlcomm_core.protocol.topics import TEAM_TOPICS
+from tlcomm_core.records import HeardRecord
 from tlcomm_core.units import NANOSECONDS_PER_SECOND
 from tlcomm_core.world.observation import Odometry
 from tlcomm_tools.bag.definitions import load_typestore, read_definition
@@ -130,6 +132,21 @@ def _reports(recording: Recording) -> Iterator[tuple[int, str, _Fields]]:
         names = ("agent", "value", "last_measurement", "has_measurement")
         fields = {name: getattr(taken, name) for name in names}
         yield taken.stamp_ns, f"/{taken.agent}/estimate", fields
+    for agent, until_ns in records.heard_until_ns.items():
+        yield until_ns, f"/{agent}/hearing", _hearing(agent, records.heard)
+
+
+def _hearing(agent: str, heard: Iterable[HeardRecord]) -> _Fields:
+    own = [record for record in heard if record.agent == agent]
+    senders = sorted({record.sender for record in own})
+    return {
+        "agent": agent,
+        "agents": senders,
+        "sender": [senders.index(record.sender) for record in own],
+        "topic": [TEAM_TOPICS.index(record.topic) for record in own],
+        "said": [record.said_ns for record in own],
+        "heard": [record.stamp_ns for record in own],
+    }
 
 
 def _team_message(message: TeamMessage) -> tuple[str, _Fields]:

@@ -18,7 +18,15 @@ from tlcomm_core.agent.actions import (
 from tlcomm_core.agent.controller import Pacing
 from tlcomm_core.agent.member import create
 from tlcomm_core.mission import Mission, create_world
-from tlcomm_core.records import EstimateRecord, RunRecords, StrategyRecord, TaskRecord
+from tlcomm_core.protocol.topics import topic_of
+from tlcomm_core.records import (
+    EstimateRecord,
+    HeardRecord,
+    RunRecords,
+    SaidRecord,
+    StrategyRecord,
+    TaskRecord,
+)
 from tlcomm_core.scenario.loader import dumps
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.workspace.atlas import Atlas
@@ -38,6 +46,8 @@ def record(mission: Mission) -> Recording:
         shell.show(step.observations)
         replies = {name: shell.act(name, step.time_ns) for name in step.ticked}
         shell.show(shell.lockstep.complete(replies))
+    heard_until_ns = dict.fromkeys(mission.site.scenario.agents, shell.lockstep.time_ns)
+    shell.recording.run.records.heard_until_ns = heard_until_ns
     return shell.recording
 
 
@@ -105,6 +115,10 @@ class _Shell:
         """Let a member act; return its reply."""
         member = self._members[name]
         actions = member.step(now_ns)
+        self.recording.run.records.heard += [
+            HeardRecord(now_ns, name, own.message.sender, topic_of(own.message), own.said_ns)
+            for own in member.heard
+        ]
         for action in actions:
             self._note(name, action, now_ns)
         drives = [own for own in actions if isinstance(own, Drive)]
@@ -131,6 +145,7 @@ class _Shell:
             case SendMessage(message) | SayEstimate(message):
                 self._sent[name] += 1
                 self.recording.said.append(Said(now_ns, name, message))
+                records.said.append(SaidRecord(now_ns, name, topic_of(message)))
                 for other, member in self._members.items():
                     if other != name:
                         member.receive(message, now_ns)

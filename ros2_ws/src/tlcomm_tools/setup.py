@@ -31,6 +31,7 @@ setup(
         "tlcomm_agent",
         "tlcomm_core",
         "tlcomm_sim",
+        "websockets",
         "zstandard",
     ],
     extras_require={"dask": ["distributed"]},

@@ -3,9 +3,15 @@
 from itertools import permutations
 
 from tlcomm_core.agent.channel import LOST, Channel, Passage
-from tlcomm_core.agent.radio import OUT_OF_RANGE, Radio
+from tlcomm_core.agent.radio import OUT_OF_RANGE, Heard, Radio
 from tlcomm_core.game.strategy import Strategy
-from tlcomm_core.protocol.messages import BestResponse, Confirmation, Message, PlanOffer
+from tlcomm_core.protocol.messages import (
+    BestResponse,
+    Confirmation,
+    Message,
+    PlanOffer,
+    TeamMessage,
+)
 from tlcomm_core.scenario import model
 
 LATENCY_NS = 5
@@ -28,22 +34,27 @@ def radio(**neighbours_since: int) -> Radio:
     return made
 
 
+def heard(made: Radio, now_ns: int) -> list[TeamMessage]:
+    """Return what is heard by now."""
+    return [own.message for own in made.heard(now_ns)]
+
+
 def test_only_neighbours_are_heard() -> None:
     """What comes from out of range is counted, and forgotten."""
     made = radio(near=0)
     made.receive(offer("near"), 0)
     made.receive(offer("far"), 0)
-    assert made.heard(LATENCY_NS) == [offer("near")]
+    assert heard(made, LATENCY_NS) == [offer("near")]
     assert made.undelivered == {OUT_OF_RANGE: 1}
     made.see_neighbours(6, {"near": 0.5, "far": 1.0})
-    assert made.heard(100) == []
+    assert heard(made, 100) == []
 
 
 def test_nobody_is_heard_before_a_neighbour_is_known() -> None:
     """Without any word of who is in range, nobody is."""
     made = Radio(LATENCY_NS, CLEAR)
     made.receive(offer("a"), 0)
-    assert made.heard(LATENCY_NS) == []
+    assert heard(made, LATENCY_NS) == []
     assert made.undelivered == {OUT_OF_RANGE: 1}
 
 
@@ -51,9 +62,9 @@ def test_a_message_takes_its_latency() -> None:
     """It is heard a hop's latency after it was sent, not before, and once."""
     made = radio(a=0)
     made.receive(offer("a"), 10)
-    assert made.heard(14) == []
-    assert made.heard(15) == [offer("a")]
-    assert made.heard(15) == []
+    assert heard(made, 14) == []
+    assert heard(made, 15) == [offer("a")]
+    assert heard(made, 15) == []
 
 
 def test_range_counts_at_the_arrival() -> None:
@@ -62,7 +73,7 @@ def test_range_counts_at_the_arrival() -> None:
     made.receive(offer("a"), 10)
     made.receive(offer("b"), 10)
     made.see_neighbours(12, {"b": 0.5})
-    assert made.heard(15) == [offer("b")]
+    assert heard(made, 15) == [offer("b")]
 
 
 def test_a_change_at_the_very_arrival_counts() -> None:
@@ -70,7 +81,7 @@ def test_a_change_at_the_very_arrival_counts() -> None:
     made = radio(a=0)
     made.receive(offer("a"), 10)
     made.see_neighbours(15, {})
-    assert made.heard(15) == []
+    assert heard(made, 15) == []
 
 
 def test_a_change_after_the_arrival_does_not_count() -> None:
@@ -79,17 +90,17 @@ def test_a_change_after_the_arrival_does_not_count() -> None:
     made.receive(offer("a"), 10)
     made.receive(offer("b"), 10)
     made.see_neighbours(16, {"b": 0.5})
-    assert made.heard(9_000_000_000) == [offer("a")]
+    assert heard(made, 9_000_000_000) == [offer("a")]
 
 
 def test_a_message_slow_to_come_is_judged_by_its_time() -> None:
     """Free running, it may be taken off the air after links changed and others were heard."""
     made = radio(a=0)
     made.see_neighbours(16, {"b": 0.5})
-    assert made.heard(20) == []
+    assert heard(made, 20) == []
     made.receive(offer("a"), 10)
     made.receive(offer("b"), 10)
-    assert made.heard(30) == [offer("a")]
+    assert heard(made, 30) == [offer("a")]
 
 
 def test_a_message_older_than_the_memory_is_not_heard() -> None:
@@ -97,10 +108,10 @@ def test_a_message_older_than_the_memory_is_not_heard() -> None:
     made = radio(a=0)
     for second in range(1, 30):
         made.see_neighbours(second * 1_000_000_000, {"a": 0.5})
-        assert made.heard(second * 1_000_000_000) == []
+        assert heard(made, second * 1_000_000_000) == []
     made.receive(offer("a"), 1_000_000_000)
     made.receive(offer("a", 2), 28_000_000_000)
-    assert made.heard(29_000_000_000) == [offer("a", 2)]
+    assert heard(made, 29_000_000_000) == [offer("a", 2)]
 
 
 def test_memory_is_bounded() -> None:
@@ -108,7 +119,7 @@ def test_memory_is_bounded() -> None:
     made = Radio(LATENCY_NS, CLEAR)
     for second in range(1000):
         made.see_neighbours(second * 1_000_000_000, {"a": 0.5})
-        made.heard(second * 1_000_000_000)
+        heard(made, second * 1_000_000_000)
     assert len(made._since_ns) == len(made._neighbours) < 20
 
 
@@ -125,7 +136,7 @@ def test_the_order_of_hearing_is_that_of_arrival_sender_and_kind() -> None:
         made = radio(a=0, b=0)
         for message, sent_ns in order:
             made.receive(message, sent_ns)
-        assert made.heard(100) == [message for message, _ in ordered]
+        assert heard(made, 100) == [message for message, _ in ordered]
 
 
 def test_messages_of_one_topic_keep_their_order() -> None:
@@ -133,7 +144,7 @@ def test_messages_of_one_topic_keep_their_order() -> None:
     made = radio(a=0)
     made.receive(offer("a", 2), 10)
     made.receive(offer("a", 1), 10)
-    assert made.heard(15) == [offer("a", 2), offer("a", 1)]
+    assert heard(made, 15) == [offer("a", 2), offer("a", 1)]
 
 
 class Staged(Channel):
@@ -155,12 +166,12 @@ def test_what_the_channel_delays_is_heard_later_and_out_of_turn() -> None:
     made.receive(offer("a"), 10)
     made.receive(offer("b"), 11)
     assert made.next_due_ns is None
-    assert made.heard(17) == []
+    assert heard(made, 17) == []
     assert made.next_due_ns == 18
-    assert made.heard(18) == [offer("b")]
-    assert made.heard(22) == [offer("a")]
+    assert heard(made, 18) == [offer("b")]
+    assert heard(made, 22) == [offer("a")]
     assert made.next_due_ns == 25
-    assert made.heard(30) == [offer("b")]
+    assert heard(made, 30) == [offer("b")]
     assert made.next_due_ns is None
 
 
@@ -170,7 +181,7 @@ def test_what_the_channel_loses_is_counted_with_its_reason() -> None:
     made.see_neighbours(0, {"a": 0.5})
     made.receive(offer("a"), 10)
     made.receive(offer("c"), 10)
-    assert made.heard(100) == []
+    assert heard(made, 100) == []
     assert made.undelivered == {LOST: 1, "too far": 1}
 
 
@@ -181,4 +192,37 @@ def test_who_was_near_when_the_latency_had_passed_is_heard_however_late() -> Non
     made.receive(offer("a"), 10)
     made.receive(offer("b"), 10)
     made.see_neighbours(20, {"b": 0.5})
-    assert made.heard(100) == [offer("a")]
+    assert heard(made, 100) == [offer("a")]
+
+
+def test_what_is_heard_says_when_it_was_said() -> None:
+    """By the sender's clock, also if that is ahead and the message counts as sent when taken."""
+    made = Radio(0, CLEAR, lag_ns=100)
+    made.see_neighbours(0, {"a": 0.5})
+    made.receive(offer("a", 1), 10)
+    made.receive(offer("a", 2), 30, taken_ns=20)
+    assert made.heard(25) == [Heard(offer("a", 1), 10), Heard(offer("a", 2), 30)]
+
+
+def test_running_freely_a_message_waits_for_news_of_the_neighbours() -> None:
+    """It isn't decided on by what the agent knew longer before it than the lag."""
+    made = Radio(0, CLEAR, lag_ns=100)
+    made.see_neighbours(0, {"a": 0.5})
+    made.receive(offer("a", 1), 100, taken_ns=110)
+    made.receive(offer("a", 2), 101, taken_ns=110)
+    assert heard(made, 110) == [offer("a", 1)]
+    made.see_neighbours(90, {})
+    assert heard(made, 120) == []
+    assert made.undelivered == {OUT_OF_RANGE: 1}
+
+
+def test_a_clock_may_lag_behind_the_senders_so_far() -> None:
+    """What is said further ahead than the lag is heard when the own clock is that near to it."""
+    made = Radio(0, CLEAR, lag_ns=100)
+    made.see_neighbours(0, {"a": 0.5})
+    made.receive(offer("a"), 90, taken_ns=10)
+    assert heard(made, 10) == [offer("a")]
+    made.see_neighbours(200, {"a": 0.5})
+    made.receive(offer("a"), 290, taken_ns=10)
+    assert heard(made, 189) == []
+    assert heard(made, 190) == [offer("a")]

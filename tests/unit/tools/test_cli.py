@@ -90,7 +90,7 @@ def test_interruption_is_status_130(
     def interrupt(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("tlcomm_tools.verbs.simulate.simulate", interrupt)
+    monkeypatch.setattr("tlcomm_tools.timed_simulation.simulate", interrupt)
     status, _, err = run(capsys, "simulate", CORRIDOR)
     assert (status, err) == (130, "tlcomm: error: interrupted\n")
 

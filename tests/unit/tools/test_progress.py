@@ -52,6 +52,20 @@ def test_a_terminal_has_a_bar_that_goes_away() -> None:
     assert (blank.strip(), rest) == ("", "")
 
 
+def test_what_is_told_stays_above_the_bar() -> None:
+    """A line that is told takes the place of the bar, which is drawn again below it."""
+    stream, clock = Terminal(), FakeClock()
+    with Progress(None, 100.0, stream, clock) as progress:
+        clock.now_s = 0.2
+        progress.show(50.0, 1)
+        progress.tell("ROS domain 3")
+        clock.now_s = 0.4
+        progress.show(60.0, 1)
+    _, _, told, again, *_ = stream.getvalue().split("\r")
+    assert told.strip() == ""
+    assert again.startswith("ROS domain 3\n")
+
+
 def test_nothing_shown_leaves_nothing() -> None:
     """A run shorter than a period writes nothing at all."""
     stream = Terminal()

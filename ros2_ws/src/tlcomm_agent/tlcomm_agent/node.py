@@ -26,7 +26,8 @@ from rclpy.serialization import deserialize_message
 from tlcomm_agent import tasking, wire, wire_map, wire_messages
 from tlcomm_agent.arrivals import Arrivals
 from tlcomm_agent.config import PARAMETERS, AgentConfig
-from tlcomm_agent.wire_fields import WireError
+from tlcomm_agent.hearing import Hearings
+from tlcomm_agent.ignored import Ignored
 from tlcomm_core.agent import actions
 from tlcomm_core.agent.controller import CONTROL_PERIOD_S, Pacing
 from tlcomm_core.agent.member import create
@@ -34,6 +35,8 @@ from tlcomm_core.agent.timing import TimedMember
 from tlcomm_core.errors import InputError, PlanningError, TlcommError
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import nanoseconds
+from tlcomm_core.wire.fields import WireError
+from tlcomm_core.wire.team_messages import decode_message
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_msgs import msg, srv
 
@@ -47,12 +50,11 @@ _HELD_STRATEGIES: Final = 10
 _HELD: Final = QoSProfile(depth=_HELD_STRATEGIES, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _READY_PERIOD_S: Final = 0.1
 _LEAVE_PERIOD_S: Final = 0.05
-_MOST_REASONS: Final = 100
 _STATUS_INPUT: Final = 2
 _STATUS_BROKEN: Final = 3
 
 
-class _Hearing(ReentrantCallbackGroup):
+class _Attention(ReentrantCallbackGroup):
     """Another agent's messages, taken while there is a point in it."""
 
     def __init__(self, other: str, attended: Callable[[], Container[str]]) -> None:
@@ -112,7 +114,7 @@ class AgentNode(Node):
         )
         self.config: Final = AgentConfig.from_parameters(self.get_namespace(), self._declared)
         self.is_done = False
-        self.ignored: Final[Counter[str]] = Counter()
+        self.ignored: Final = Ignored()
         self._on_ready: Final = on_ready
         self._is_lockstep: Final = self.config.pace.is_lockstep
         pacing = Pacing.EVENT if self._is_lockstep else Pacing.PERIODIC
@@ -124,8 +126,9 @@ class AgentNode(Node):
         )
         self._timed: Final = TimedMember(self._member, time.thread_time, time.time)
         self._taken: Final[Counter[str]] = Counter()
-        latency_s = self.config.scenario.communication.hop_latency_s
-        self._arrivals: Final = Arrivals(self.config.others, nanoseconds(latency_s))
+        latency_ns = nanoseconds(config.scenario.communication.hop_latency_s)
+        self._arrivals: Final = Arrivals(config.others, latency_ns)
+        self._hearings: Final = Hearings(config.name)
         self._tick: msg.Tick | None = None
         self._published: Final[Counter[str]] = Counter()
         self._is_ready = False
@@ -143,10 +146,9 @@ class AgentNode(Node):
         return self.declare_parameter(name, PARAMETERS[name], descriptor).value
 
     def _create_publishers(self) -> None:
-        create = self.create_publisher
-        self._answer_pub = create(msg.TickReply, "/tick_reply", _DEPTH)
+        self._answer_pub = self.create_publisher(msg.TickReply, "/tick_reply", _DEPTH)
         self._pubs = {
-            topic: create(kind, topic, _HELD if topic == "team_strategy" else _DEPTH)
+            topic: self.create_publisher(kind, topic, _HELD if topic == "team_strategy" else _DEPTH)
             for topic, kind in {**wire.TYPES, **self._team_types}.items()
         }
 
@@ -185,7 +187,7 @@ class AgentNode(Node):
 
     def _subscribe_team(self, other: str, topic: str, kind: type) -> Any:  # noqa: ANN401 (opaque)
         def take(data: bytes) -> None:
-            sent_ns = self._hear(other, kind, data)
+            sent_ns = self._hear(other, topic, data)
             if self._is_lockstep:
                 self._arrivals.note(other, sent_ns)
             self._proceed()
@@ -195,7 +197,7 @@ class AgentNode(Node):
             f"/{other}/{topic}",
             take,
             _COUNTED if self._is_lockstep else _BY_RADIO,
-            callback_group=_Hearing(other, lambda: self._attended),
+            callback_group=_Attention(other, lambda: self._attended),
             raw=True,
         )
 
@@ -242,13 +244,14 @@ class AgentNode(Node):
             awaited = self._member.awaited
             self._attended = self._neighbours if awaited is None else (awaited,)
 
-    def _hear(self, other: str, kind: type, data: bytes) -> int:
+    def _hear(self, other: str, topic: str, data: bytes) -> int:
         """Take what another agent's topic carries, whatever that is; return when it was sent.
 
         What can't be read counts as sent at the start, so that nobody waits for it.
         """
+        kind = self._team_types[topic]
         try:
-            message, sent_ns = wire_messages.decode_message(deserialize_message(data, kind))
+            message, sent_ns = decode_message(deserialize_message(data, kind), topic)
         except WireError as error:
             self._ignore(f"{other}: {error}")
             return 0
@@ -258,10 +261,8 @@ class AgentNode(Node):
         if message.sender != other:
             self._ignore(f"{other}: a message in the name of {message.sender!r}")
             return sent_ns
-        if not self._is_lockstep:
-            # The sender's clock may be a tick ahead of this one's; what was heard was said before.
-            sent_ns = min(sent_ns, self._now_ns())
-        self._member.receive(message, sent_ns)
+        # Running freely, the sender's clock may be a tick ahead of this one's.
+        self._member.receive(message, sent_ns, None if self._is_lockstep else self._now_ns())
         return sent_ns
 
     def _take_tick(self, tick: msg.Tick) -> None:
@@ -290,6 +291,7 @@ class AgentNode(Node):
         """Act no more; stay until the sim has gone, to send again what somebody has missed."""
         self._is_stopped = True
         self._publish_undelivered(tick.time_ns)
+        self._publish("hearing", wire.encode_hearing(self._hearings.take(), tick.time_ns))
         self._answer(tick.sequence)
         self.create_timer(_LEAVE_PERIOD_S, self._leave_after_sim, clock=self._steady)
 
@@ -323,6 +325,8 @@ class AgentNode(Node):
             self._perform(action, now_ns)
         if timing is not None:
             self._publish("round_timing", wire.encode_round_timing(timing, now_ns))
+        if self._hearings.note(self._member.heard, now_ns):
+            self._publish("hearing", wire.encode_hearing(self._hearings.take(), now_ns))
         has_met = self._member.meetings_ended != meetings_ended
         if has_met:
             self._publish_undelivered(now_ns)
@@ -343,8 +347,7 @@ class AgentNode(Node):
         self._pubs[topic].publish(message)
 
     def _answer(self, sequence: int) -> None:
-        member, published = self._member, self._published
-        answer = wire.encode_answer(member, sequence, published, self._team_types)
+        answer = wire.encode_answer(self._member, sequence, self._published, self._team_types)
         answer.ready = self._is_ready
         self._answer_pub.publish(answer)
 
@@ -373,11 +376,8 @@ class AgentNode(Node):
         self.get_logger().info(f"done; ignored: {dict(self.ignored)}")
 
     def _ignore(self, reason: str) -> None:
-        if reason not in self.ignored and len(self.ignored) >= _MOST_REASONS:
-            reason = "further reasons"
-        self.ignored[reason] += 1
-        if self.ignored[reason] == 1:
-            self.get_logger().warning(f"ignored: {reason}")
+        if (news := self.ignored.note(reason)) is not None:
+            self.get_logger().warning(f"ignored: {news}")
 
 
 def main(args: Sequence[str] | None = None) -> int:

@@ -3,7 +3,7 @@
 ``TYPES``              the type of each topic that an agent publishes, but those that it talks on
 ``encode_action``      what the agent does, of ``PublishedAction``
 ``encode_drive``, ``encode_task_event``, ``encode_team_strategy``, ``encode_round_timing``,
-``encode_estimate``, ``encode_undelivered``  each of the messages that it publishes
+``encode_estimate``, ``encode_undelivered``, ``encode_hearing``  each of what it publishes
 ``encode_answer``      what it answers to a tick
 ``decode_odometry``    where the agent is
 ``decode_neighbours``  who is in range of one agent, and how far away, of ``Connectivity``
@@ -17,15 +17,9 @@ from typing import Any, Final
 
 from geometry_msgs.msg import TwistStamped
 
-from tlcomm_agent.wire_fields import (
-    WireError,
-    decode_stamp,
-    finite,
-    header,
-    names,
-    time,
-)
-from tlcomm_agent.wire_messages import encode_message, encode_strategy, topic_of
+from tlcomm_agent.hearing import Hearing
+from tlcomm_agent.wire_fields import header, time
+from tlcomm_agent.wire_messages import encode_message, encode_strategy
 from tlcomm_core.agent.actions import (
     Drive,
     ReportEstimate,
@@ -38,7 +32,10 @@ from tlcomm_core.agent.timing import RoundTiming
 from tlcomm_core.game.strategy import TeamStrategy
 from tlcomm_core.geometry import Pose, yaw_from_quaternion
 from tlcomm_core.protocol.actions import HoldStrategy, SendMessage
+from tlcomm_core.protocol.topics import TEAM_TOPICS, topic_of
 from tlcomm_core.units import NANOSECONDS_PER_SECOND
+from tlcomm_core.wire import world_messages
+from tlcomm_core.wire.fields import WireError, decode_stamp, finite, names
 from tlcomm_core.world.observation import Odometry
 from tlcomm_msgs import msg
 
@@ -52,6 +49,7 @@ __all__ = [
     "encode_answer",
     "encode_drive",
     "encode_estimate",
+    "encode_hearing",
     "encode_round_timing",
     "encode_task_event",
     "encode_team_strategy",
@@ -65,6 +63,7 @@ TYPES: Final[Mapping[str, Any]] = MappingProxyType(
         "team_strategy": msg.TeamStrategy,
         "round_timing": msg.RoundTiming,
         "undelivered": msg.Undelivered,
+        "hearing": msg.Hearing,
         # Where there is nothing to estimate, the topic is there for those who look for it.
         "estimate": msg.Estimate,
     }
@@ -157,6 +156,22 @@ def encode_undelivered(counts: Mapping[str, int], agent: str, stamp_ns: int) -> 
     )
 
 
+def encode_hearing(hearing: Hearing, stamp_ns: int) -> _RosMessage:
+    """Return what an agent has heard up to now."""
+    times_ns = [time_ns for time_ns, _ in hearing.heard]
+    heard = [own for _, own in hearing.heard]
+    senders = sorted({own.message.sender for own in heard})
+    return msg.Hearing(
+        header=header(stamp_ns),
+        agent=hearing.agent,
+        agents=senders,
+        sender=[senders.index(own.message.sender) for own in heard],
+        topic=[TEAM_TOPICS.index(topic_of(own.message)) for own in heard],
+        said=[own.said_ns for own in heard],
+        heard=times_ns,
+    )
+
+
 def encode_answer(
     member: Member, sequence: int, published: Mapping[str, int], team_topics: Collection[str]
 ) -> _RosMessage:
@@ -236,7 +251,8 @@ def decode_reading(message: _RosMessage, agent: str) -> tuple[int, float]:
     """
     if message.agent != agent:
         raise WireError(f"agent: a reading of {message.agent!r}")
-    return decode_stamp(message.header.stamp), finite(message.value, "value")
+    reading = world_messages.decode_reading(message)
+    return reading.stamp_ns, reading.value
 
 
 def _wall_ns(time_s: float) -> int:

@@ -10,13 +10,12 @@ import numpy as np
 from nav_msgs.msg import OccupancyGrid
 from numpy.typing import NDArray
 
-from tlcomm_agent.wire_fields import WireError, decode_stamp
+from tlcomm_core.wire import world_messages
+from tlcomm_core.wire.fields import WireError
 from tlcomm_core.workspace.grid import Grid
 
 __all__ = ["decode_map"]
 
-# Occupied as likely as not counts as occupied, and so does what isn't known (−1).
-_OCCUPIED: Final = 50
 # The message has the resolution as a 32-bit float.
 _PRECISION: Final = 1e-6
 
@@ -43,5 +42,4 @@ def decode_map(message: OccupancyGrid, grid: Grid) -> tuple[int, NDArray[np.bool
         raise WireError(f"origin: {origin_m!r}, not {grid.origin_m!r}")
     if info.origin.orientation.x or info.origin.orientation.y or info.origin.orientation.z:
         raise WireError("origin: the map is turned")
-    cells = np.frombuffer(message.data, dtype=np.int8).reshape(rows, columns)
-    return decode_stamp(message.header.stamp), (cells >= 0) & (cells < _OCCUPIED)
+    return world_messages.decode_map(message)

@@ -2,7 +2,10 @@
 
 ``TaskRecord``      an agent's ``TaskEvent`` with its time
 ``StrategyRecord``  a team strategy that an agent holds as agreed
+``OfferRecord``     the plan that an agent laid open to agree on a round
 ``EstimateRecord``  what an agent takes the field to be
+``SaidRecord``      that an agent said something
+``HeardRecord``     that an agent's radio let it through to another
 ``RunRecords``      all of it, with the world's observations
 ``event_log``       the canonical text of a run's decisions, for comparing runs
 """
@@ -13,10 +16,20 @@ from dataclasses import asdict, dataclass, field
 
 from tlcomm_core.agent.actions import TaskEvent
 from tlcomm_core.agent.timing import RoundTiming
+from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.strategy import TeamStrategy
 from tlcomm_core.world.observation import Connectivity, Odometry
 
-__all__ = ["EstimateRecord", "RunRecords", "StrategyRecord", "TaskRecord", "event_log"]
+__all__ = [
+    "EstimateRecord",
+    "HeardRecord",
+    "OfferRecord",
+    "RunRecords",
+    "SaidRecord",
+    "StrategyRecord",
+    "TaskRecord",
+    "event_log",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +51,16 @@ class StrategyRecord:
 
 
 @dataclass(frozen=True, slots=True)
+class OfferRecord:
+    """The plan that an agent laid open to agree on a round, as it said it first."""
+
+    stamp_ns: int
+    agent: str
+    round: int
+    offer: MemberOffer
+
+
+@dataclass(frozen=True, slots=True)
 class EstimateRecord:
     """An agent's estimate of the field from ``stamp_ns`` on.
 
@@ -54,16 +77,49 @@ class EstimateRecord:
     has_measurement: bool
 
 
+@dataclass(frozen=True, slots=True)
+class SaidRecord:
+    """That an agent said something, on one of the topics that agents talk on."""
+
+    stamp_ns: int
+    agent: str
+    topic: str
+
+
+@dataclass(frozen=True, slots=True)
+class HeardRecord:
+    """That an agent's radio let a message through, on which the agent then acted.
+
+    Attributes:
+        stamp_ns: when it acted.
+        agent: who heard.
+        sender: who said it.
+        topic: on which of the sender's topics.
+        said_ns: when, by the sender's clock.
+    """
+
+    stamp_ns: int
+    agent: str
+    sender: str
+    topic: str
+    said_ns: int
+
+
 @dataclass(slots=True)
 class RunRecords:
     """Everything that results and checks are computed from, each list in order of time.
 
     Attributes:
         estimates: whenever one has changed; of an agent without any estimate yet there is none.
+        offers: each agent's own, once for each round that it was said for, unless it has changed.
         messages_sent: per agent, how many messages it said.
         bytes_sent: per agent, how long these were together, each as it is serialised.
         messages_undelivered: per agent, by reason, how many of the others' its radio didn't let
             through.
+        said: by all agents.
+        heard: by all agents.
+        heard_until_ns: per agent, up to when ``heard`` has all that it heard; agents of whom that
+            wasn't recorded are missing.
     """
 
     tasks: list[TaskRecord] = field(default_factory=list)
@@ -72,9 +128,13 @@ class RunRecords:
     odometry: list[Odometry] = field(default_factory=list)
     connectivity: list[Connectivity] = field(default_factory=list)
     estimates: list[EstimateRecord] = field(default_factory=list)
+    offers: list[OfferRecord] = field(default_factory=list)
     messages_sent: dict[str, int] = field(default_factory=dict)
     bytes_sent: dict[str, int] = field(default_factory=dict)
     messages_undelivered: dict[str, Mapping[str, int]] = field(default_factory=dict)
+    said: list[SaidRecord] = field(default_factory=list)
+    heard: list[HeardRecord] = field(default_factory=list)
+    heard_until_ns: dict[str, int] = field(default_factory=dict)
 
 
 def event_log(records: RunRecords) -> Iterator[str]:

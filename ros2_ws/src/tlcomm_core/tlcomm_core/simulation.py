@@ -24,9 +24,18 @@ from tlcomm_core.agent.controller import Pacing
 from tlcomm_core.agent.member import Member, create
 from tlcomm_core.agent.timing import TimedMember
 from tlcomm_core.mission import Mission, create_world
-from tlcomm_core.protocol.messages import TeamMessage
+from tlcomm_core.protocol.messages import PlanOffer, TeamMessage
 from tlcomm_core.protocol.size import size_bytes
-from tlcomm_core.records import EstimateRecord, RunRecords, StrategyRecord, TaskRecord
+from tlcomm_core.protocol.topics import topic_of
+from tlcomm_core.records import (
+    EstimateRecord,
+    HeardRecord,
+    OfferRecord,
+    RunRecords,
+    SaidRecord,
+    StrategyRecord,
+    TaskRecord,
+)
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_core.world.lockstep import LockStep, Reply
@@ -78,6 +87,8 @@ def simulate(
         if on_progress is not None:
             on_progress(step.time_ns, harness.lockstep.meetings_ended)
     harness.left.collisions = dict(harness.world.collisions)
+    agents = mission.site.scenario.agents
+    harness.left.records.heard_until_ns = dict.fromkeys(agents, harness.left.sim_ns)
     return harness.left
 
 
@@ -86,6 +97,7 @@ class _Harness:
 
     def __init__(self, mission: Mission, on_message: Callable[[TeamMessage], None] | None) -> None:
         self._on_message = on_message
+        self._offered: set[object] = set()
         scenario = mission.site.scenario
         silent = dict.fromkeys(scenario.agents, 0)
         self.left = Simulated(RunRecords(messages_sent=silent, bytes_sent=silent.copy()))
@@ -152,6 +164,10 @@ class _Harness:
                 case _:
                     self._perform(name, action, now_ns)
         member = self._members[name]
+        self.left.records.heard += [
+            HeardRecord(now_ns, name, own.message.sender, topic_of(own.message), own.said_ns)
+            for own in member.heard
+        ]
         return Reply(
             next_need_ns=member.next_need_ns,
             team_messages=self.left.records.messages_sent[name],
@@ -181,11 +197,23 @@ class _Harness:
     def _broadcast(self, sender: str, message: TeamMessage, now_ns: int) -> None:
         self.left.records.messages_sent[sender] += 1
         self.left.records.bytes_sent[sender] += size_bytes(message)
+        self.left.records.said.append(SaidRecord(now_ns, sender, topic_of(message)))
         if self._on_message is not None:
             self._on_message(message)
+        if isinstance(message, PlanOffer):
+            self._note_offer(message, now_ns)
         for name, member in self._members.items():
             if name != sender:
                 member.receive(message, now_ns)
+
+    def _note_offer(self, message: PlanOffer, now_ns: int) -> None:
+        """Record the sender's own offer when it is new."""
+        for offer in message.offers:
+            ticket = (message.round, offer)
+            if offer.agent == message.sender and ticket not in self._offered:
+                self._offered.add(ticket)
+                record = OfferRecord(now_ns, offer.agent, message.round, offer)
+                self.left.records.offers.append(record)
 
     def _show_connectivity(self, connectivity: Connectivity) -> None:
         names = tuple(self._members)

@@ -26,6 +26,7 @@ from rosgraph_msgs.msg import Clock as ClockMessage
 
 from tlcomm_core.errors import InputError, TlcommError
 from tlcomm_core.units import nanoseconds, seconds
+from tlcomm_core.wire.world_messages import decode_command
 from tlcomm_core.world.observation import Connectivity, Observation, Occupancy, Odometry, Reading
 from tlcomm_msgs import msg
 from tlcomm_sim import wire
@@ -151,7 +152,7 @@ class SimNode(Node):
 
     def _subscribe_commands(self, agent: str) -> Any:  # noqa: ANN401 (rclpy's are opaque)
         def take(message: TwistStamped) -> None:
-            command = wire.decode_command(message)
+            command = decode_command(message)
             self._perform(self._conductor.take_command(agent, *command, time.monotonic_ns()))
 
         return self.create_subscription(TwistStamped, f"/{agent}/cmd_vel", take, _DEPTH)

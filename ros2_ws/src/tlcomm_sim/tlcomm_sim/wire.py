@@ -2,8 +2,7 @@
 
 ``encode_clock``, ``encode_odometry``, ``encode_connectivity``, ``encode_occupancy``,
 ``encode_reading``, ``encode_tick``
-``decode_command``  a velocity command
-``decode_answer``   an agent's or the recorder's answer to a tick
+``decode_answer``  an agent's or the recorder's answer to a tick
 """
 
 import math
@@ -13,7 +12,6 @@ from typing import Any, Final
 
 import numpy as np
 from builtin_interfaces.msg import Time
-from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import OccupancyGrid
 from nav_msgs.msg import Odometry as OdometryMessage
 from rosgraph_msgs.msg import Clock
@@ -27,7 +25,6 @@ from tlcomm_sim.outputs import Answer, Tick
 
 __all__ = [
     "decode_answer",
-    "decode_command",
     "encode_clock",
     "encode_connectivity",
     "encode_occupancy",
@@ -115,11 +112,6 @@ def encode_tick(tick: Tick) -> _RosMessage:
         agent_counts=list(tick.agent_counts),
         stop=tick.stop,
     )
-
-
-def decode_command(message: TwistStamped) -> tuple[float, float]:
-    """Return a command's velocities (m/s, rad/s), finite or not: the world refuses the latter."""
-    return message.twist.linear.x, message.twist.angular.z
 
 
 def decode_answer(message: _RosMessage) -> Answer:

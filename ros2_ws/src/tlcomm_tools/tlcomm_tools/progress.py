@@ -62,6 +62,11 @@ class Bar:
         self._stream.flush()
         self._width = len(line)
 
+    def tell(self, line: str) -> None:
+        """Print a line of its own."""
+        self._wipe()
+        print(line, file=self._stream, flush=True)
+
     def __enter__(self) -> Self:
         """Return itself."""
         return self
@@ -73,6 +78,9 @@ class Bar:
         traceback: TracebackType | None,
     ) -> None:
         """Wipe the bar."""
+        self._wipe()
+
+    def _wipe(self) -> None:
         if self._width:
             self._stream.write(f"\r{'':{self._width}}\r")
             self._stream.flush()

@@ -3,13 +3,14 @@
 ``RunOptions``   what is run
 ``RunReport``    how it went
 ``run_mission``  runs it
-``launch``       its processes alone
+``launch``       its processes alone, also without a recorder
 """
 
+import contextlib
 import os
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, assert_never
@@ -28,7 +29,8 @@ from tlcomm_tools.bag.reader import RecordedRun, read_run
 from tlcomm_tools.folder import RunFolder
 from tlcomm_tools.limit import time_limit_s
 from tlcomm_tools.runtime.domain import claim_domain, process_environment
-from tlcomm_tools.runtime.notify import Note, Progress
+from tlcomm_tools.runtime.notify import Note, Progress, Ready
+from tlcomm_tools.runtime.onlooker import Onlooker
 from tlcomm_tools.runtime.supervisor import (
     ProcessSpec,
     RunFailed,
@@ -42,6 +44,7 @@ from tlcomm_tools.status import Status
 __all__ = ["RunOptions", "RunReport", "launch", "run_mission"]
 
 _PROCESS = ("-P", "-m", "tlcomm_tools.runtime.process")
+_VIEW = ("-P", "-m", "tlcomm_tools.runtime.view")
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +60,7 @@ class RunOptions:
         rounds: the run ends D_c after the meeting of this round, or ``None``.
         until_s: the run ends at this simulated time, or ``None``.
         out: folder to write to, or ``None`` for a new one.
+        has_view: whether a browser can look on.
         compression: of the bag.
     """
 
@@ -68,6 +72,7 @@ class RunOptions:
     rounds: int | None
     until_s: float | None
     out: Path | None
+    has_view: bool = False
     compression: Compression = DEFAULT
 
 
@@ -88,29 +93,76 @@ class RunReport:
     failure: RunFailed | None
 
 
-def run_mission(options: RunOptions, on_progress: Callable[[float, int], None]) -> RunReport:
+def run_mission(
+    options: RunOptions,
+    on_progress: Callable[[float, int], None],
+    tell: Callable[[str], None] = lambda _: None,
+) -> RunReport:
     """Run a scenario with a process per agent; write its results, whatever happens.
 
     Args:
         options: what to run.
         on_progress: called with the simulated time (s) and the number of meetings that have ended.
+        tell: is told what a user should know meanwhile, a line at a time, by another thread too.
 
     Raises:
         InputError: the folder can't be used, or the processes are too many for this machine.
     """
     folder = RunFolder.create(options.scenario.name, options.method, options.out)
-    last = Progress(0.0, 0)
+    folder.write_scenario(dumps(options.scenario))
+    folder.logs.mkdir()
+    specs = _specs(options, folder)
+    count = len(specs) + options.has_view
+    with claim_domain() as domain, contextlib.ExitStack() as stack:
+        tell(f"ROS domain {domain}")
+        environment = process_environment(os.environ, domain, folder.logs.absolute(), count)
+        view = _view(options, folder, environment, tell) if options.has_view else None
+        onlooker = None if view is None else stack.enter_context(view)
+        return _run(options, folder, specs, environment, on_progress, onlooker)
 
-    def note(_: str, news: Note) -> None:
+
+def _run(
+    options: RunOptions,
+    folder: RunFolder,
+    specs: Sequence[ProcessSpec],
+    environment: Mapping[str, str],
+    on_progress: Callable[[float, int], None],
+    onlooker: Onlooker | None,
+) -> RunReport:
+    last = Progress(0.0, 0)
+    unready = {spec.name for spec in specs}
+
+    def note(name: str, news: Note) -> None:
         nonlocal last
         if isinstance(news, Progress):
             last = news
             on_progress(news.sim_s, news.meetings_ended)
+        elif isinstance(news, Ready) and unready:
+            unready.discard(name)
+            if not unready and onlooker is not None:
+                onlooker.begin()
 
     begun_s = time.monotonic()
-    outcome = launch(options, folder, note)
-    wall_s = time.monotonic() - begun_s
-    return _report(options, folder, outcome, wall_s, last)
+    outcome = run_processes(specs, environment, note)
+    report = _report(options, folder, outcome, time.monotonic() - begun_s, last)
+    if onlooker is not None:
+        onlooker.end(report.result["verdict"])
+    return report
+
+
+def _view(
+    options: RunOptions,
+    folder: RunFolder,
+    environment: Mapping[str, str],
+    tell: Callable[[str], None],
+) -> Onlooker:
+    command = (
+        *(sys.executable, *_VIEW),
+        *("--scenario", str(folder.scenario.absolute()), "--bag", str(folder.bag.absolute())),
+        *("--method", options.method.value, "--seed", str(options.seed)),
+        *("--solver", options.method.solver(options.solver).name),
+    )
+    return Onlooker(command, environment, folder.logs / "view.log", tell)
 
 
 def launch(
@@ -118,15 +170,15 @@ def launch(
     folder: RunFolder,
     on_note: Callable[[str, Note], None],
     *,
-    is_recorded: bool = True,
+    is_recorded: bool,
 ) -> RunOutcome:
-    """Run a scenario's processes to their end.
+    """Run a scenario's processes to their end, with no results written.
 
     Args:
         options: what to run.
         folder: where scenario, logs and bag go.
         on_note: called with a process's name and each of its notes.
-        is_recorded: whether there is a recorder; without one no bag is left, and no results.
+        is_recorded: whether there is a recorder; without one no bag is left.
 
     Raises:
         InputError: the processes are too many for this machine.
@@ -139,7 +191,9 @@ def launch(
         return run_processes(specs, environment, on_note)
 
 
-def _specs(options: RunOptions, folder: RunFolder, *, is_recorded: bool) -> list[ProcessSpec]:
+def _specs(
+    options: RunOptions, folder: RunFolder, *, is_recorded: bool = True
+) -> list[ProcessSpec]:
     """Return the recorder, the sim and the agents, in the order in which they start."""
     scenario = ("--scenario", str(folder.scenario.absolute()))
     world = (*scenario, "--seed", str(options.seed), "--pace", str(options.pace))

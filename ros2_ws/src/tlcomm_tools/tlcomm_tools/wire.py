@@ -2,8 +2,8 @@
 
 ``DecodedMessage``      any object with a message's fields
 ``read_odometry``, ``read_connectivity``, ``read_task_event``, ``read_team_strategy``,
-``read_round_timing``, ``read_estimate``, ``read_undelivered``  one per recorded type that results
-are computed from
+``read_round_timing``, ``read_estimate``, ``read_undelivered``, ``read_hearing``  one per recorded
+type that results are computed from
 ``read_strategy``       one agent's part in a team strategy
 ``stamp_ns``            a time
 
@@ -13,11 +13,14 @@ They need no ROS.
 import math
 from typing import Any
 
+import numpy as np
+
 from tlcomm_core.agent.actions import TaskEvent, TaskEventKind
 from tlcomm_core.agent.timing import RoundTiming
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
 from tlcomm_core.geometry import Pose, yaw_from_quaternion
-from tlcomm_core.records import EstimateRecord, StrategyRecord, TaskRecord
+from tlcomm_core.protocol.topics import TEAM_TOPICS
+from tlcomm_core.records import EstimateRecord, HeardRecord, StrategyRecord, TaskRecord
 from tlcomm_core.units import NANOSECONDS_PER_SECOND, seconds
 from tlcomm_core.world.observation import Connectivity, Odometry
 
@@ -25,6 +28,7 @@ __all__ = [
     "DecodedMessage",
     "read_connectivity",
     "read_estimate",
+    "read_hearing",
     "read_odometry",
     "read_round_timing",
     "read_strategy",
@@ -54,6 +58,8 @@ def read_odometry(message: DecodedMessage, agent: str) -> Odometry:
 def read_connectivity(message: DecodedMessage) -> Connectivity:
     """Read a ``tlcomm_msgs/Connectivity``; older ones have no distances."""
     ends = [int(end) for end in message.edges]
+    if len(ends) % 2:
+        raise ValueError(f"the {len(ends)} ends of edges aren't pairs")
     return Connectivity(
         stamp_ns=stamp_ns(message.header.stamp),
         edges=tuple(zip(ends[::2], ends[1::2], strict=True)),
@@ -114,6 +120,16 @@ def read_estimate(message: DecodedMessage) -> EstimateRecord:
 def read_undelivered(message: DecodedMessage) -> dict[str, int]:
     """Read a ``tlcomm_msgs/Undelivered``: how many messages, by reason."""
     return dict(zip(message.reasons, map(int, message.counts), strict=True))
+
+
+def read_hearing(message: DecodedMessage, agent: str) -> list[HeardRecord]:
+    """Read a ``tlcomm_msgs/Hearing`` of this agent."""
+    columns = (message.heard, message.sender, message.topic, message.said)
+    rows = zip(*(np.asarray(column).tolist() for column in columns), strict=True)
+    return [
+        HeardRecord(heard_ns, agent, message.agents[who], TEAM_TOPICS[what], said_ns)
+        for heard_ns, who, what, said_ns in rows
+    ]
 
 
 def read_strategy(message: DecodedMessage) -> Strategy:

@@ -35,8 +35,11 @@ def test_a_good_run_has_no_violations() -> None:
     assert found.violations == ()
     assert set(found.document()["checks"]) == {
         *("bag", "records", "method", "motion", "clearance", "actions"),
-        *("tasks", "strategies", "meetings"),
+        *("tasks", "strategies", "meetings", "equilibria", "hearing"),
     }
+    # Nobody made these agents' plans.
+    assert found.unavailable == {"equilibria": ("what agents planned isn't recorded",)}
+    assert found.document()["checks"]["equilibria"] is None
     assert [own.satisfied for own in found.windows] == [True, True, True]
     # They are half a metre apart at a meeting and leave at 1 m/s each: a quarter of a second more.
     # East comes last and is in range half a second before its arrival at 8 s and 18 s.
@@ -205,6 +208,14 @@ def act_nowhere(records: RunRecords) -> None:
                 (
                     "west: 6.500 s: jumps by 0.050 m from where its velocity leads; "
                     "6 times, at most 0.500 m"
+                ),
+                (
+                    "east: 11.005 s: heard 'confirmation' of west, said at 11.000 s, "
+                    "from 1.050 m away, out of range"
+                ),
+                (
+                    "west: 11.005 s: heard 'confirmation' of east, said at 11.000 s, "
+                    "from 1.050 m away, out of range; 2 messages in all"
                 ),
             ],
         ),

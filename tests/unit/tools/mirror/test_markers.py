@@ -29,6 +29,22 @@ def test_regions_are_discs_with_their_names() -> None:
     assert [own.text for own in found["region_names"]] == ["left", "right"]
 
 
+def test_regions_are_not_hidden_by_the_map() -> None:
+    """They begin above the map, which is at height 0."""
+    for disc in kinds(mirror_run(0.0)["/region_markers", 0.0])["regions"]:
+        assert disc.pose.position.z - disc.scale.z / 2 > 0.0
+
+
+def test_names_of_an_agent_and_its_region_can_both_be_read() -> None:
+    """One is above its place and the other below, at least half a line each."""
+    mirrors = mirror_run(0.0)
+    regions, team = (kinds(mirrors[topic, 0.0]) for topic in ("/region_markers", "/team_markers"))
+    for found, kind, side in ((regions, "region", -1), (team, "agent", 1)):
+        for place, name in zip(found[f"{kind}s"], found[f"{kind}_names"], strict=True):
+            rise_m = name.pose.position.y - place.pose.position.y
+            assert side * rise_m >= name.scale.z / 2
+
+
 def test_agents_are_where_their_odometry_says() -> None:
     """One second on its way at 1 m/s, each with its name and a colour of its own."""
     found = kinds(mirror_run(3.0)["/team_markers", 3.0])
@@ -58,7 +74,8 @@ def test_links_that_do_not_join_the_team_look_different() -> None:
 def test_meeting_places_are_shown_when_they_are_agreed() -> None:
     """From 1 s on, when the hand-made run's agents agree on round 1."""
     mirrors = mirror_run(1.0)
-    (discs,) = kinds(mirrors["/team_markers", 1.0])["meeting"]
-    assert [(point.x, point.y) for point in discs.points] == [(3.75, 0.25), (3.25, 0.25)]
-    assert len(discs.colors) == 2
+    discs = kinds(mirrors["/team_markers", 1.0])
+    places = [own.pose.position for own in discs["meeting"]]
+    assert [(place.x, place.y) for place in places] == [(3.75, 0.25), (3.25, 0.25)]
+    assert [own.color for own in discs["meeting"]] == [own.color for own in discs["agents"]]
     assert "meeting" not in kinds(mirrors["/team_markers", 0.0])

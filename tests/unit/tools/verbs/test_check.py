@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -81,6 +82,31 @@ def test_check_goes_by_the_bags_method(tmp_path: Path, capsys: pytest.CaptureFix
     document = json.loads(out)
     assert (status, document["method"]) == (1, "all-time")
     assert [own["kept"] for own in document["guarantees"]] == [False, False]
+
+
+def test_check_is_told_the_method(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Of a bag that doesn't say, or says another; as report is."""
+    write_bag(tmp_path / "bag", hand_made_records())
+    status, out, _ = run(capsys, "check", "bag", "--method", "static")
+    assert (status, out.splitlines()[0]) == (0, "line, method static: audit of 25.0 s")
+    assert "argument --method: invalid choice: 'x'" in refusal(
+        capsys, "check", "bag", "--method", "x"
+    )
+    arguments = ("report", "bag", "--method", "all-time", "-o", "line.html", "--json")
+    status, out, _ = run(capsys, *arguments)
+    assert status == 0
+    assert json.loads(out)["verdict"][0].startswith("not connected from 2.250 s to ")
+
+
+def test_check_wants_simulated_times(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A message stamped by the wall clock would be of a run of years: it is refused at once."""
+    records = hand_made_records()
+    records.odometry[-1] = replace(records.odometry[-1], stamp_ns=1_800_000_000_000_000_000)
+    write_bag(tmp_path / "bag", records)
+    assert refusal(capsys, "check", "bag") == (
+        "tlcomm: error: 'bag' has a message stamped 1800000000.000 s, expected simulated time: "
+        "from 0 on, and 100000 windows at most, 1e+06 s\n"
+    )
 
 
 def test_check_knows_no_other_method(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -70,7 +70,7 @@ def test_a_failed_property_is_status_1(
 ) -> None:
     """A simulation whose verdict isn't ok ends with status 1, its files written."""
     monkeypatch.setattr(
-        "tlcomm_tools.verbs.simulate.result_document",
+        "tlcomm_tools.timed_simulation.result_document",
         lambda *run: {**result_document(*run), "verdict": ["window 1 missed"]},
     )
     status, out, _ = run(capsys, "simulate", CORRIDOR, "--until", "5", "--out", "mine")

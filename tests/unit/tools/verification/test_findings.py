@@ -44,9 +44,32 @@ def test_fresh_brains_do_what_was_recorded(scenario: Scenario, rounds: int, meth
     assert found.difference is None
     records = recording.run.records
     done = [recording.said, recording.commanded, records.tasks, records.strategies]
-    assert sum(own.outputs for own in found.agents) == sum(map(len, [*done, records.estimates]))
+    done += [records.estimates, records.heard]
+    assert sum(own.outputs for own in found.agents) == sum(map(len, done))
     assert found.document()["verdict"] == "ok"
     assert found.sim_s == seconds(recording.end_ns)
+
+
+def test_what_was_heard_otherwise_is_named(recording: Recording) -> None:
+    """A message that an agent's radio let through and isn't recorded is a difference."""
+    heard = recording.run.records.heard
+    lost = heard.pop(len(heard) // 2)
+    found = verify(recording).difference
+    assert found is not None
+    assert (found.agent, found.time_ns, found.topic) == (lost.agent, lost.stamp_ns, "hearing")
+
+
+@pytest.mark.parametrize("until_s", [None, 40.0])
+def test_what_was_heard_may_be_unrecorded(recording: Recording, until_s: float | None) -> None:
+    """As in bags from before it was, or after the last that was told of it: nothing differs."""
+    records = recording.run.records
+    until_ns = -1 if until_s is None else nanoseconds(until_s)
+    names = records.heard_until_ns if until_s is not None else ()
+    assert any(own.stamp_ns > until_ns for own in records.heard)
+    records.heard = [own for own in records.heard if own.stamp_ns <= until_ns]
+    records.heard_until_ns = dict.fromkeys(names, until_ns)
+    recording.topics = frozenset(name for name in recording.topics if "hearing" not in name)
+    assert verify(recording).difference is None
 
 
 def test_a_changed_message_is_named(recording: Recording) -> None:

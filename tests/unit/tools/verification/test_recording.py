@@ -17,6 +17,7 @@ from tlcomm_core.mission import Mission
 from tlcomm_core.protocol.messages import BestResponse
 from tlcomm_core.records import event_log
 from tlcomm_core.scenario.site import Site
+from tlcomm_tools.report.moves import read_best_responses
 from tlcomm_tools.verification.findings import verify
 from tlcomm_tools.verification.recording import Recording, read_recording
 
@@ -49,8 +50,10 @@ def test_a_number_that_is_none_is_refused(tmp_path: Path, recording: Recording) 
     )
     recording.said[index] = replace(said, message=replace(word, change_s=math.nan))
     write_recording(tmp_path / "bag", recording, measures=False)
-    with pytest.raises(InputError, match="change: nan isn't finite"):
+    with pytest.raises(InputError, match="/best_response' can't be used: change: nan isn't finite"):
         read_recording(tmp_path)
+    with pytest.raises(InputError, match="/best_response' can't be used: change: nan isn't finite"):
+        read_best_responses(tmp_path)
 
 
 def test_a_message_of_another_kind_is_refused(tmp_path: Path, recording: Recording) -> None:

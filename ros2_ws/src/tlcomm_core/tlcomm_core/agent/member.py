@@ -32,7 +32,7 @@ from tlcomm_core.agent.events import (
 from tlcomm_core.agent.faults import ActionFaults, fault_rng
 from tlcomm_core.agent.methods import brain_for, rounds_for, rules_for
 from tlcomm_core.agent.planner import Planner, local_plan, plan_for
-from tlcomm_core.agent.radio import OUT_OF_RANGE, UNSEEN, Radio
+from tlcomm_core.agent.radio import OUT_OF_RANGE, UNSEEN, Heard, Radio
 from tlcomm_core.agent.settings import Settings
 from tlcomm_core.errors import PlanningError
 from tlcomm_core.game.solver import DEFAULT, Solver
@@ -54,6 +54,10 @@ __all__ = ["Member", "check_start", "create", "team_of"]
 # What a periodic controller may lose at the end of a turn or a straight: the rest of its period
 # and a late timer.
 _ALLOWANCE_S: Final = {Pacing.EVENT: 0.0, Pacing.PERIODIC: 1.2 * CONTROL_PERIOD_S}
+
+# Running freely, an agent may learn late who is in range. It is told at least once a second, and
+# what it knows when it hears a message may be as old as that.
+_LAG_NS: Final = {Pacing.EVENT: None, Pacing.PERIODIC: 1_000_000_000}
 
 # Further off its leg than a cell, an agent is where the leg never leads. (What a late controller
 # overshoots is less, and no displacement.)
@@ -87,6 +91,7 @@ class Member:
         self._charts = charts
         self._estimator = estimator
         self._measured_at = ""
+        self._heard: tuple[Heard, ...] = ()
         self._brain_need_ns: int | None = 0
         self._odometry: list[OdometryReceived] = []
         self._maps: list[MapChanged] = []
@@ -116,6 +121,11 @@ class Member:
     def measured_at(self) -> str:
         """The region in which the last step ended the action that reads the field, or ""."""
         return self._measured_at
+
+    @property
+    def heard(self) -> tuple[Heard, ...]:
+        """What the radio let through to the last step, in that order."""
+        return self._heard
 
     @property
     def undelivered(self) -> Mapping[str, int]:
@@ -151,9 +161,15 @@ class Member:
         if self._estimator is not None:
             self._estimator.read(value, stamp_ns)
 
-    def receive(self, message: TeamMessage, sent_ns: int) -> None:
-        """Take a message off the air; the radio decides whether the brain hears it."""
-        self._radio.receive(message, sent_ns)
+    def receive(self, message: TeamMessage, said_ns: int, taken_ns: int | None = None) -> None:
+        """Take a message off the air; the radio decides whether the brain hears it.
+
+        Args:
+            message: what was said.
+            said_ns: when, by the sender's clock.
+            taken_ns: when it was taken, if clocks may differ.
+        """
+        self._radio.receive(message, said_ns, taken_ns)
 
     def change_task(self, task: str, now_ns: int) -> LocalPlan:
         """Plan for another task, to be begun at the next meeting; return the plan.
@@ -188,12 +204,13 @@ class Member:
         for event in seen:
             actions += self._brain.handle(event, now_s)
         is_told = bool(seen)
-        for message in self._radio.heard(now_ns):
-            if isinstance(message, EstimateExchange):
-                actions += self._hear_estimate(message, now_ns)
+        self._heard = tuple(self._radio.heard(now_ns))
+        for own in self._heard:
+            if isinstance(own.message, EstimateExchange):
+                actions += self._hear_estimate(own.message, now_ns)
             else:
                 is_told = True
-                actions += self._brain.handle(MessageHeard(message), now_s)
+                actions += self._brain.handle(MessageHeard(own.message), now_s)
         if is_told or (self._brain_need_ns is not None and now_ns >= self._brain_need_ns):
             actions += self._proceed(now_ns, now_s)
         if self._estimator is not None:
@@ -323,7 +340,7 @@ def create(
     latency_s = scenario.communication.hop_latency_s if pacing is Pacing.EVENT else 0.0
     channel = Channel(scenario.radio, scenario.communication.range_m, seed, name)
     unlinked = UNSEEN if scenario.radio.line_of_sight else OUT_OF_RANGE
-    radio = Radio(nanoseconds(latency_s), channel, unlinked)
+    radio = Radio(nanoseconds(latency_s), channel, unlinked, _LAG_NS[pacing])
     # Whose method is not to meet doesn't talk by chance either.
     partners = () if method is Method.NONE else scenario.agents
     estimator = create_estimator(name, scenario, partners)

@@ -1,6 +1,7 @@
 """What an agent's radio lets through: messages of neighbours, at the instant they arrive.
 
 ``Radio``         the filter between what is on the air and what the agent hears
+``Heard``         a message that it let through
 ``OUT_OF_RANGE``  why a message from elsewhere isn't heard
 ``UNSEEN``        the same where obstacles matter too
 
@@ -12,6 +13,7 @@ are, and nothing else of the connectivity.
 from bisect import bisect_right
 from collections import Counter
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Final
 
 from tlcomm_core.agent.channel import Channel
@@ -24,7 +26,7 @@ from tlcomm_core.protocol.messages import (
     TeamMessage,
 )
 
-__all__ = ["OUT_OF_RANGE", "UNSEEN", "Radio"]
+__all__ = ["OUT_OF_RANGE", "UNSEEN", "Heard", "Radio"]
 
 OUT_OF_RANGE: Final = "out of range"
 UNSEEN: Final = "out of range or sight"
@@ -44,6 +46,19 @@ _KIND_RANK: Final[dict[type[TeamMessage], int]] = {
 _MEMORY_NS: Final = 10_000_000_000
 
 
+@dataclass(frozen=True, slots=True)
+class Heard:
+    """A message that a radio let through.
+
+    Attributes:
+        message: what was said.
+        said_ns: when, by the sender's clock.
+    """
+
+    message: TeamMessage
+    said_ns: int
+
+
 class Radio:
     """The filter between what is on the air and what the agent hears.
 
@@ -51,7 +66,13 @@ class Radio:
         undelivered: how many messages weren't let through, by reason.
     """
 
-    def __init__(self, latency_ns: int, channel: Channel, unlinked: str = OUT_OF_RANGE) -> None:
+    def __init__(
+        self,
+        latency_ns: int,
+        channel: Channel,
+        unlinked: str = OUT_OF_RANGE,
+        lag_ns: int | None = None,
+    ) -> None:
         """Begin without neighbours.
 
         Args:
@@ -59,14 +80,18 @@ class Radio:
                 has passed hears the message, then or later.
             channel: what becomes of messages of neighbours.
             unlinked: why others aren't heard.
+            lag_ns: how old what the agent knows of its neighbours, and how late its clock, may be
+                when a message is decided on: until then it waits. ``None`` in lock step, where
+                both are up to date.
         """
         self._latency_ns: Final = latency_ns
         self._channel: Final = channel
         self._unlinked: Final = unlinked
+        self._lag_ns: Final = lag_ns
         self._since_ns: list[int] = [-1]
         self._neighbours: list[Mapping[str, float]] = [{}]
-        self._on_air: list[tuple[int, TeamMessage]] = []
-        self._under_way: list[tuple[int, TeamMessage]] = []
+        self._on_air: list[tuple[int, Heard]] = []
+        self._under_way: list[tuple[int, Heard]] = []
         self.undelivered: Final[Counter[str]] = Counter()
 
     @property
@@ -84,35 +109,51 @@ class Radio:
         self._since_ns.append(stamp_ns)
         self._neighbours.append(distances_m)
 
-    def receive(self, message: TeamMessage, sent_ns: int) -> None:
-        """Take a message off the air, whoever sent it."""
-        self._on_air.append((sent_ns, message))
+    def receive(self, message: TeamMessage, said_ns: int, taken_ns: int | None = None) -> None:
+        """Take a message off the air, whoever sent it.
 
-    def heard(self, now_ns: int) -> list[TeamMessage]:
+        Args:
+            message: what was said.
+            said_ns: when, by the sender's clock.
+            taken_ns: when it was taken, by the agent's own clock if that may be another: what was
+                heard was said before.
+        """
+        sent_ns = said_ns
+        if taken_ns is not None:
+            sent_ns = max(min(said_ns, taken_ns), said_ns - (self._lag_ns or 0))
+        self._on_air.append((sent_ns, Heard(message, said_ns)))
+
+    def heard(self, now_ns: int) -> list[Heard]:
         """Return, and forget, the messages that are heard by now.
 
         The order depends on the messages only, not on when they were taken off the air.
         """
-        reached = [entry for entry in self._on_air if entry[0] + self._latency_ns <= now_ns]
-        self._on_air = [entry for entry in self._on_air if entry[0] + self._latency_ns > now_ns]
-        for sent_ns, message in sorted(reached, key=_turn):
-            self._pass_on(message, sent_ns)
+        reached = [entry for entry in self._on_air if self._is_reached(entry, now_ns)]
+        self._on_air = [entry for entry in self._on_air if not self._is_reached(entry, now_ns)]
+        for sent_ns, own in sorted(reached, key=_turn):
+            self._pass_on(own, sent_ns)
         due = [entry for entry in self._under_way if entry[0] <= now_ns]
         self._under_way = [entry for entry in self._under_way if entry[0] > now_ns]
         self._forget_before(now_ns)
-        return [message for _, message in sorted(due, key=_turn)]
+        return [own for _, own in sorted(due, key=_turn)]
 
-    def _pass_on(self, message: TeamMessage, sent_ns: int) -> None:
+    def _is_reached(self, entry: tuple[int, Heard], now_ns: int) -> bool:
+        """Tell whether a message can be decided on."""
+        sent_ns, own = entry
+        is_known = self._lag_ns is None or self._since_ns[-1] >= own.said_ns - self._lag_ns
+        return is_known and sent_ns + self._latency_ns <= now_ns
+
+    def _pass_on(self, own: Heard, sent_ns: int) -> None:
         """Decide on a message for which the fixed latency has passed."""
         reached_ns = sent_ns + self._latency_ns
-        distance_m = self._distance_m(message.sender, reached_ns)
+        distance_m = self._distance_m(own.message.sender, reached_ns)
         if distance_m is None:
             self.undelivered[self._unlinked] += 1
             return
-        passage = self._channel.carry(message, sent_ns, distance_m)
+        passage = self._channel.carry(own.message, sent_ns, distance_m)
         if passage.obstacle:
             self.undelivered[passage.obstacle] += 1
-        self._under_way += [(reached_ns + delay_ns, message) for delay_ns in passage.delays_ns]
+        self._under_way += [(reached_ns + delay_ns, own) for delay_ns in passage.delays_ns]
 
     def _distance_m(self, sender: str, time_ns: int) -> float | None:
         """Return how far away a neighbour was at a time; ``None`` if it was none."""
@@ -125,7 +166,7 @@ class Radio:
         del self._since_ns[:oldest], self._neighbours[:oldest]
 
 
-def _turn(entry: tuple[int, TeamMessage]) -> tuple[int, str, int]:
+def _turn(entry: tuple[int, Heard]) -> tuple[int, str, int]:
     """Return what messages are sorted by: time, sender, kind; else they stay as they came."""
-    time_ns, message = entry
-    return time_ns, message.sender, _KIND_RANK[type(message)]
+    time_ns, own = entry
+    return time_ns, own.message.sender, _KIND_RANK[type(own.message)]

@@ -10,7 +10,8 @@ GATHERING   Everyone floods its offer. Who holds all members' offers knows that 
             present, and t_c. All then pose the same round problem and compute the same S⁰.
             (``gathering``)
 IMPROVING   Over the meeting graph, which is known to all from the offers' places: everyone's
-            proposal, if the solver makes any, and Algorithm 1. (``improving``, ``consensus``)
+            proposal, if the solver makes any, and Algorithm 1. (``meeting_graph``, ``improving``,
+            ``consensus``)
 CONFIRMING  The search is over; everyone floods that it holds the result. (``confirming``)
 AGREED      All confirmations are known: the team strategy is held as agreed.
 
@@ -52,14 +53,12 @@ exchanges, and that it answers.
 import math
 from collections.abc import Sequence
 from enum import Enum
-from itertools import product
 from typing import Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tlcomm_core.errors import InfeasibleRoundError, LocalMisuseError
-from tlcomm_core.game.links import LINK_TOLERANCE_M
+from tlcomm_core.errors import InfeasibleRoundError
 from tlcomm_core.game.offer import MemberOffer, busy_until
 from tlcomm_core.game.problem import RoundProblem
 from tlcomm_core.game.strategy import TeamStrategy
@@ -67,6 +66,7 @@ from tlcomm_core.protocol.actions import Action, CountIgnored, HoldStrategy, Sen
 from tlcomm_core.protocol.confirming import Confirming
 from tlcomm_core.protocol.gathering import Gathering
 from tlcomm_core.protocol.improving import Improving
+from tlcomm_core.protocol.meeting_graph import meeting_graph
 from tlcomm_core.protocol.messages import (
     BestResponse,
     Confirmation,
@@ -77,7 +77,6 @@ from tlcomm_core.protocol.messages import (
 )
 from tlcomm_core.protocol.reception import Reception
 from tlcomm_core.protocol.team import OnInfeasible, Team
-from tlcomm_core.world.radio import diameter, distances_m, edges, pair_indices
 
 __all__ = ["Negotiation", "Phase", "Rounds"]
 
@@ -337,7 +336,7 @@ class Negotiation:
 
     def _improving_for(self, round_: int, departure_s: float) -> Improving:
         offers = self._gathering.offers
-        links, exchanges = _meeting_graph(offers, self._team, self._rounds.sightings(offers))
+        links, exchanges = meeting_graph(offers, self._team, self._rounds.sightings(offers))
         names = [offer.agent for offer in offers]
         own = names.index(self._own)
         self._neighbours = frozenset(names[i + j - own] for i, j in links if own in (i, j))
@@ -369,27 +368,3 @@ class Negotiation:
             return []
         offer = self._gathering.lacking(self._neighbours)
         return [] if offer is None else [offer]
-
-
-def _meeting_graph(
-    offers: Sequence[MemberOffer], team: Team, sightings: Sequence[NDArray[np.bool_]] = ()
-) -> tuple[tuple[tuple[int, int], ...], int]:
-    """Return the links that exchanges wait for, and how many exchanges reach everyone.
-
-    These are the links that hold although both ends are off by their tolerance: a pair reported
-    exactly R apart, or along a wall, may hear each other or not. Only a team that isn't connected
-    by such links, as at its start it may not be, relies on longer ones, up to the first length that
-    connects it; or else on less sure sightings, and at last on none.
-    """
-    places_m = np.array([(offer.x_m, offer.y_m) for offer in offers])
-    sure_m = team.planned_range_m + LINK_TOLERANCE_M
-    distance_m = distances_m(places_m)
-    longer_m = np.unique(distance_m[distance_m > sure_m]).tolist()
-    pairs = pair_indices(len(offers))
-    masks = (*(sighting[pairs] for sighting in sightings), np.ones(len(distance_m), dtype=np.bool_))
-    for is_seen, range_m in product(masks, (sure_m, *longer_m)):
-        links = edges(len(offers), is_seen & (distance_m <= range_m))
-        hops = diameter(len(offers), links)
-        if hops is not None:
-            return links, max(1, hops)
-    raise LocalMisuseError(f"{places_m!r} are places at no finite distance")

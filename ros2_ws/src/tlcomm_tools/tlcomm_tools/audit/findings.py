@@ -10,14 +10,17 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from tlcomm_core.method import Method
+from tlcomm_core.pace import LOCK_STEP, Pace
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_tools.audit.actions import audit_actions
 from tlcomm_tools.audit.clearance import audit_clearance
 from tlcomm_tools.audit.conditions import audit_conditions
+from tlcomm_tools.audit.equilibria.finding import EquilibriumFinding, audit_equilibria
 from tlcomm_tools.audit.evidence import Evidence
 from tlcomm_tools.audit.guarantees.guarantee import Guarantee
 from tlcomm_tools.audit.guarantees.methods import audit_guarantees
+from tlcomm_tools.audit.hearing import audit_hearing, unheard
 from tlcomm_tools.audit.links import WindowFinding
 from tlcomm_tools.audit.meetings import audit_meetings
 from tlcomm_tools.audit.motion import audit_motion
@@ -44,7 +47,9 @@ class Audit:
         windows: each window's outcome for the whole team, whether or not that is promised.
         tasks: each agent's task.
         strategies: what agents hold.
+        equilibria: whether anybody could gain alone; ``None`` if the method leaves no choice.
         checks: by what was checked, what is wrong, a line each.
+        unavailable: by what would have been checked, what the records don't tell, a line each.
     """
 
     scenario: str
@@ -55,7 +60,9 @@ class Audit:
     windows: tuple[WindowFinding, ...]
     tasks: tuple[TaskFinding, ...]
     strategies: StrategyFinding
+    equilibria: EquilibriumFinding | None
     checks: Mapping[str, tuple[str, ...]]
+    unavailable: Mapping[str, tuple[str, ...]]
 
     @property
     def violations(self) -> tuple[str, ...]:
@@ -86,13 +93,23 @@ class Audit:
                 for own in self.tasks
             },
             "strategies": {"rounds": self.strategies.rounds, "equal": self.strategies.equal},
-            "checks": {name: list(lines) for name, lines in self.checks.items()},
+            "equilibria": self.equilibria and self.equilibria.document(),
+            "checks": {
+                name: None if name in self.unavailable and not lines else list(lines)
+                for name, lines in self.checks.items()
+            },
+            "unavailable": {name: list(lines) for name, lines in self.unavailable.items()},
             "verdict": list(self.violations) or "ok",
         }
 
 
 def audit_run(
-    scenario: Scenario, method: Method, records: RunRecords, end_ns: int, damage: str = ""
+    scenario: Scenario,
+    method: Method,
+    records: RunRecords,
+    end_ns: int,
+    damage: str = "",
+    pace: Pace | None = LOCK_STEP,
 ) -> Audit:
     """Audit a run against its scenario, and against what its method promises.
 
@@ -102,6 +119,7 @@ def audit_run(
         records: what was recorded, from a bag or in memory.
         end_ns: end of the run.
         damage: why the records couldn't be read to their end, or "".
+        pace: how simulated time went on; ``None`` if that isn't known.
 
     Cost: about 2 s for 100 rounds of 8 agents.
     """
@@ -109,6 +127,7 @@ def audit_run(
     guarantees = audit_guarantees(method, evidence)
     tasks = [audit_task(method, evidence, agent) for agent in evidence.agents]
     strategies = audit_strategies(method, evidence)
+    equilibria = audit_equilibria(method, evidence, pace)
     checks = {
         "bag": (f"the bag is damaged: {damage}",) if damage else (),
         "records": (*evidence.faults, *_silent(method, evidence)),
@@ -117,6 +136,12 @@ def audit_run(
         "tasks": tuple(line for own in tasks for line in own.violations),
         "strategies": strategies.violations,
         "meetings": tuple(_meetings(method, evidence)),
+        "equilibria": () if equilibria is None else equilibria.violations,
+        "hearing": tuple(audit_hearing(evidence, pace)),
+    }
+    unavailable = {
+        "equilibria": () if equilibria is None else equilibria.unavailable,
+        "hearing": unheard(evidence, pace),
     }
     return Audit(
         scenario=scenario.name,
@@ -127,7 +152,9 @@ def audit_run(
         windows=tuple(evidence.windows),
         tasks=tuple(tasks),
         strategies=strategies,
+        equilibria=equilibria,
         checks=checks,
+        unavailable={name: lines for name, lines in unavailable.items() if lines},
     )
 
 

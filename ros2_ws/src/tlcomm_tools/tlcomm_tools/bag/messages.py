@@ -3,19 +3,23 @@
 ``BagMessage``     one of them
 ``DecodedBag``     those on some topics
 ``read_messages``  reads them
+``using``          what goes wrong while one of them is used, in one line
 """
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from tlcomm_core.errors import InputError
+from tlcomm_core.wire.fields import WireError
 from tlcomm_tools.bag.container import Channel, Container, read_container
 from tlcomm_tools.bag.reader import find_files
 from tlcomm_tools.bag.topics import split_topic
 from tlcomm_tools.bag.typestore import decoding, make_typestore
 from tlcomm_tools.wire import DecodedMessage
 
-__all__ = ["BagMessage", "DecodedBag", "read_messages"]
+__all__ = ["BagMessage", "DecodedBag", "read_messages", "using"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +70,22 @@ def read_messages(path: Path, wanted: Callable[[Channel], bool]) -> DecodedBag:
         if container.damage:
             break
     return DecodedBag(frozenset(topics), tuple(messages))
+
+
+@contextmanager
+def using(message: BagMessage) -> Iterator[None]:
+    """Turn what fails in the block into one line that names the message's topic.
+
+    The file's own definition of a type may be another than ours.
+
+    Raises:
+        InputError: something failed.
+    """
+    try:
+        yield
+    except (WireError, AttributeError, TypeError, ValueError) as error:
+        topic = f"/{message.agent}/{message.topic}".replace("//", "/")
+        raise InputError(f"a message on {topic!r} can't be used: {error}") from error
 
 
 def _decoded(container: Container, wanted: Callable[[Channel], bool]) -> Iterator[BagMessage]:

@@ -4,7 +4,7 @@
 ``recorded_topics``  all of them, for a team
 ``mirror_topics``    what the recorder adds for other people's viewers
 ``split_topic``      whose a topic is
-``TEAM_TOPICS``      the topics that agents talk on
+``OPTIONAL_TOPICS``  those that bags from before them lack
 ``FIELD_TOPICS``     those that are there only if something is measured
 """
 
@@ -14,7 +14,7 @@ from dataclasses import dataclass
 __all__ = [
     "AGENT_TOPICS",
     "FIELD_TOPICS",
-    "TEAM_TOPICS",
+    "OPTIONAL_TOPICS",
     "Topic",
     "mirror_topics",
     "recorded_topics",
@@ -33,12 +33,13 @@ AGENT_TOPICS = {
     "estimate": "tlcomm_msgs/msg/Estimate",
     "round_timing": "tlcomm_msgs/msg/RoundTiming",
     "undelivered": "tlcomm_msgs/msg/Undelivered",
+    "hearing": "tlcomm_msgs/msg/Hearing",
 }
 FIELD_TOPICS = {
     "reading": "tlcomm_msgs/msg/Reading",
     "estimate_exchange": "tlcomm_msgs/msg/EstimateExchange",
 }
-TEAM_TOPICS = ("plan_offer", "proposal", "best_response", "confirmation", "estimate_exchange")
+OPTIONAL_TOPICS = ("hearing",)
 _LATCHED = "team_strategy"
 
 

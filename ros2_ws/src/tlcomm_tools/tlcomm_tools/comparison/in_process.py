@@ -3,25 +3,18 @@
 ``execute``  runs it
 """
 
-import time
-from typing import Final
-
 from tlcomm_core.errors import TlcommError
 from tlcomm_core.game.solver import SOLVERS
 from tlcomm_core.mission import Mission
-from tlcomm_core.result import RunFacts, result_document
 from tlcomm_core.scenario.loader import loads
 from tlcomm_core.scenario.site import Site
-from tlcomm_core.simulation import simulate
-from tlcomm_core.units import seconds
 from tlcomm_tools.audit.findings import audit_run
 from tlcomm_tools.comparison.job import AUDIT, TRACE, Failed, Finished, Job, Outcome
 from tlcomm_tools.comparison.tracing import trace_text
 from tlcomm_tools.folder import dumps_json
+from tlcomm_tools.timed_simulation import simulate_timed
 
 __all__ = ["execute"]
-
-_PACE: Final = "lockstep"
 
 
 def execute(job: Job) -> Outcome:
@@ -40,17 +33,8 @@ def _simulated(job: Job) -> Finished:
     solver = job.method.solver(SOLVERS[job.solver])
     solver.check_team(len(scenario.agents))
     site = Site.from_scenario(scenario)
-    begun_s = time.perf_counter()
-    left = simulate(Mission(site, job.seed, None, job.until_s, solver, job.method))
-    facts = RunFacts(
-        method=job.method,
-        solver=solver.name,
-        seed=job.seed,
-        pace=_PACE,
-        sim_s=seconds(left.sim_ns),
-        wall_s=time.perf_counter() - begun_s,
-    )
-    result = result_document(scenario, left.records, facts)
+    mission = Mission(site, job.seed, None, job.until_s, solver, job.method)
+    left, result = simulate_timed(mission)
     audit = audit_run(scenario, job.method, left.records, left.sim_ns)
     files = {
         "scenario.yaml": job.scenario,

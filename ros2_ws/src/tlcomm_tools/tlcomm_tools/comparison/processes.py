@@ -56,7 +56,9 @@ def _run(job: Job, out: Path, on_wait: Callable[[], None]) -> Failed | None:
         failure = report.failure
         return Failed(f"{failure.name}: {failure.reason} (logs: {report.folder.logs})")
     recorded = read_run(report.folder.bag)
-    audit = audit_run(scenario, job.method, recorded.records, recorded.end_ns, recorded.damage)
+    audit = audit_run(
+        scenario, job.method, recorded.records, recorded.end_ns, recorded.damage, recorded.pace
+    )
     replace_file(out / AUDIT, dumps_json(audit.document()))
     if job.is_drawn:
         replace_file(out / TRACE, trace_text(job, scenario, recorded.records, report.result))

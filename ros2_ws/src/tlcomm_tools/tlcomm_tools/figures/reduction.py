@@ -4,11 +4,13 @@
 ``field``             what was measured in it, as it truly was
 ``path``              an agent's way, thinned
 ``spans``             what an agent did when
+``Doings``            the same, as it goes on
 ``satisfactions_s``   when its task was satisfied
 ``meetings``          where was met, and who was linked
 ``agreements``        what the agreed team strategies cost
 ``additional_times``  what rounds cost, by the results
 ``estimates``         what an agent took the field for
+``add_estimate``      the same, as it goes on
 ``by_agent``          records, each agent's own
 """
 
@@ -39,6 +41,8 @@ from tlcomm_tools.figures.elements import (
 )
 
 __all__ = [
+    "Doings",
+    "add_estimate",
     "additional_times",
     "agreements",
     "by_agent",
@@ -96,10 +100,10 @@ def path(odometry: Iterable[Odometry]) -> Path:
 
 def spans(tasks: Iterable[TaskRecord], end_s: float) -> tuple[Span, ...]:
     """Return what one agent did when, by its own account; what goes on at the end ends there."""
-    course = _Course()
+    course = Doings()
     for record in tasks:
         course.follow(record)
-    return tuple(sorted(course.closed(end_s), key=lambda span: span.start_s))
+    return tuple(sorted([*course.closed, *course.open(end_s)], key=lambda span: span.start_s))
 
 
 def satisfactions_s(tasks: Iterable[TaskRecord]) -> tuple[float, ...]:
@@ -168,23 +172,32 @@ def estimates(records: Iterable[EstimateRecord]) -> Series:
     """
     steps: list[tuple[float, float]] = []
     for record in records:
-        step = (_rounded(seconds(record.stamp_ns)), round(record.value, _FINE_DIGITS))
-        if steps and step[0] - steps[-1][0] < _STEP_S:
-            # The estimates of one exchange are told apart by nobody; where it leads to counts.
-            step = (steps.pop()[0], step[1])
-        if not steps or steps[-1][1] != step[1]:
-            steps.append(step)
+        add_estimate(steps, record)
     return Series(
         times_s=tuple(time_s for time_s, _ in steps), values=tuple(value for _, value in steps)
     )
 
 
-class _Course:
-    """Follows one agent's task events: an action, or waiting for a meeting, then the meeting."""
+def add_estimate(steps: list[tuple[float, float]], record: EstimateRecord) -> None:
+    """Add the next estimate to an agent's steps (s, value); only the last one may change."""
+    step = (_rounded(seconds(record.stamp_ns)), round(record.value, _FINE_DIGITS))
+    if steps and step[0] - steps[-1][0] < _STEP_S:
+        # The estimates of one exchange are told apart by nobody; where it leads to counts.
+        step = (steps.pop()[0], step[1])
+    if not steps or steps[-1][1] != step[1]:
+        steps.append(step)
+
+
+class Doings:
+    """Follows one agent's task events: an action, or waiting for a meeting, then the meeting.
+
+    Attributes:
+        closed: what it has done, in the order of its end.
+    """
 
     def __init__(self) -> None:
+        self.closed: list[Span] = []
         self._open: dict[Activity, tuple[str, float]] = {}
-        self._closed: list[Span] = []
 
     def follow(self, record: TaskRecord) -> None:
         """Take one event."""
@@ -208,11 +221,10 @@ class _Course:
             case _:
                 pass
 
-    def closed(self, end_s: float) -> Iterator[Span]:
-        """Yield what has ended, and the rest as if it did now."""
-        for activity in tuple(self._open):
-            self._end(activity, end_s)
-        yield from self._closed
+    def open(self, end_s: float) -> Iterator[Span]:
+        """Yield what goes on, as if it ended now."""
+        for activity, (action, start_s) in self._open.items():
+            yield from _span(activity, action, start_s, end_s)
 
     def _begin(self, activity: Activity, action: str, time_s: float) -> None:
         self._end(activity, time_s)
@@ -222,10 +234,14 @@ class _Course:
         if activity not in self._open:
             return
         action, start_s = self._open.pop(activity)
-        start_s, end_s = _rounded(start_s), _rounded(time_s)
-        if start_s < end_s:
-            span = Span(activity=activity, action=action, start_s=start_s, end_s=end_s)
-            self._closed.append(span)
+        self.closed += _span(activity, action, start_s, time_s)
+
+
+def _span(activity: Activity, action: str, start_s: float, end_s: float) -> Iterator[Span]:
+    """Yield a span, unless it is too short to be one."""
+    start_s, end_s = _rounded(start_s), _rounded(end_s)
+    if start_s < end_s:
+        yield Span(activity=activity, action=action, start_s=start_s, end_s=end_s)
 
 
 class _Air:
@@ -282,11 +298,14 @@ def _thinned(samples: NDArray[np.float64]) -> NDArray[np.float64]:
     stretches = [(0, len(samples) - 1)]
     while stretches:
         first, last = stretches.pop()
+        if last - first <= 1:
+            # Of two at the same time, a jump, no third one is worse.
+            continue
         times_s, start, stop = samples[first : last + 1, 0], samples[first], samples[last]
         share = (times_s - start[0]) / max(stop[0] - start[0], 1e-12)
         straight_m = start[1:] + share[:, None] * (stop[1:] - start[1:])
         off_m = np.hypot(*(samples[first : last + 1, 1:] - straight_m).T)
-        worst = int(np.argmax(off_m))
+        worst = 1 + int(np.argmax(off_m[1:-1]))
         if off_m[worst] > _STRAIGHT_M:
             kept[first + worst] = True
             stretches += [(first, first + worst), (first + worst, last)]

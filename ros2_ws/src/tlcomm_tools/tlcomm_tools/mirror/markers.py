@@ -7,14 +7,13 @@ Each kind is a namespace of its own, so that viewers can hide it. An array repla
 it: what has gone from it is deleted.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import chain
 from typing import Any, Final
 
 import numpy as np
 from rosbags.typesys.stores import ros2_jazzy as ros
 
-from tlcomm_core.game.strategy import Strategy
 from tlcomm_core.geometry import Pose
 from tlcomm_tools.mirror.elements import (
     FRAME,
@@ -49,7 +48,11 @@ _LINE: Final = 0.08
 
 
 def make_region_markers(picture: Picture, now_ns: int) -> ros.visualization_msgs__msg__MarkerArray:
-    """Return the regions with their names."""
+    """Return the regions with their names.
+
+    Regions lie on the map, since viewers hide what is under it. Their names are below the middle,
+    agents' above, so that both can be read where an agent stands in the middle.
+    """
     return _array(now_ns, _regions(picture))
 
 
@@ -79,23 +82,26 @@ def _regions(picture: Picture) -> Iterator[ros.visualization_msgs__msg__Marker]:
             "regions",
             number,
             _Marker.CYLINDER,
-            make_pose(place, -0.01),
+            make_pose(place, 0.01),
             (width_m, width_m, 0.01),
             _REGION,
         )
-        yield _text("region_names", number, place, name, size_m)
+        below = Pose(x_m, y_m - size_m, 0.0)
+        yield _text("region_names", number, below, name, size_m)
 
 
 def _agents(picture: Picture) -> Iterator[ros.visualization_msgs__msg__Marker]:
     cell_m = picture.site.grid.cell_m
     scale_m = (_AGENT * cell_m, 0.4 * _AGENT * cell_m, 0.3 * _AGENT * cell_m)
+    size_m = _TEXT * cell_m
     for number, (name, agent) in enumerate(picture.agents.items()):
         if agent.odometry is None:
             continue
         pose = agent.odometry.pose
         colour = agent_colour(number)
         yield _marker("agents", number, _Marker.ARROW, make_pose(pose), scale_m, colour)
-        yield _text("agent_names", number, pose, name, _TEXT * cell_m)
+        above = Pose(pose.x_m, pose.y_m + size_m, 0.0)
+        yield _text("agent_names", number, above, name, size_m)
 
 
 def _links(picture: Picture) -> Iterator[ros.visualization_msgs__msg__Marker]:
@@ -118,28 +124,20 @@ def _links(picture: Picture) -> Iterator[ros.visualization_msgs__msg__Marker]:
 
 
 def _places(picture: Picture) -> Iterator[ros.visualization_msgs__msg__Marker]:
-    """Yield one list of discs, each in its agent's colour."""
-    places = [
-        (number, own)
-        for number, (name, agent) in enumerate(picture.agents.items())
-        if (own := agent.strategy_of(name)) is not None
-    ]
-    if places:
-        size_m = _PLACE * picture.site.grid.cell_m
-        discs = _marker("meeting", 0, _Marker.SPHERE_LIST, _ORIGIN, (size_m,) * 3, _LETTERS)
-        discs.points = [make_point(own.x_m, own.y_m) for _, own in places]
-        discs.colors = _colours(places)
-        yield discs
-
-
-def _colours(places: Sequence[tuple[int, Strategy]]) -> list[ros.std_msgs__msg__ColorRGBA]:
-    return [ros.std_msgs__msg__ColorRGBA(*agent_colour(number)) for number, _ in places]
+    """Yield a disc in each agent's colour; not one list, whose colours some viewers brighten."""
+    size_m = _PLACE * picture.site.grid.cell_m
+    scale_m = (size_m, size_m, 0.02)
+    for number, (name, agent) in enumerate(picture.agents.items()):
+        own = agent.strategy_of(name)
+        if own is not None:
+            pose = make_pose(Pose(own.x_m, own.y_m, 0.0), 0.03)
+            yield _marker("meeting", number, _Marker.CYLINDER, pose, scale_m, agent_colour(number))
 
 
 def _text(
     namespace: str, number: int, place: Pose, text: str, size_m: float
 ) -> ros.visualization_msgs__msg__Marker:
-    pose = make_pose(Pose(place.x_m, place.y_m + size_m, 0.0), 0.1)
+    pose = make_pose(place, 0.1)
     scale_m = (0.0, 0.0, size_m)
     marker = _marker(namespace, number, _Marker.TEXT_VIEW_FACING, pose, scale_m, _LETTERS)
     marker.text = text

@@ -2,6 +2,7 @@
 
 ``REPORT_FORMAT``    the document's ``format``
 ``report_document``  the document of a run
+``finite``           a part of it, as JSON can say it
 """
 
 import math
@@ -10,25 +11,32 @@ from typing import Any, Final, Protocol
 
 from tlcomm_core.method import Method
 from tlcomm_core.metrics.run import run_metrics
+from tlcomm_core.pace import Pace
 from tlcomm_core.protocol.messages import BestResponse
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import seconds
-from tlcomm_core.world.observation import Odometry
+from tlcomm_tools.audit.evidence import usable_parts
 from tlcomm_tools.audit.findings import audit_run
 from tlcomm_tools.bag.reader import RecordedRun
 from tlcomm_tools.figures import reduction
 from tlcomm_tools.report.links import link_spans
+from tlcomm_tools.report.plans import NO_PLANS, Plans
 from tlcomm_tools.report.rounds import round_documents
 from tlcomm_tools.report.steps import done_steps, incidents
 
-__all__ = ["REPORT_FORMAT", "report_document"]
+__all__ = ["REPORT_FORMAT", "finite", "report_document"]
 
 REPORT_FORMAT: Final = "tlcomm-report/1"
 
 
 def report_document(
-    scenario: Scenario, method: Method, recorded: RecordedRun, said: Iterable[BestResponse] = ()
+    scenario: Scenario,
+    method: Method,
+    recorded: RecordedRun,
+    said: Iterable[BestResponse] = (),
+    plans: Mapping[str, Plans] = NO_PLANS,
+    pace: Pace | None = None,
 ) -> dict[str, Any]:
     """Return what a page shows of a run; a number that isn't finite isn't available.
 
@@ -37,25 +45,31 @@ def report_document(
         method: of coordination.
         recorded: what the bag holds.
         said: what agents told of their best responses.
+        plans: the ways that agents had before them, as they were published.
+        pace: how simulated time went on; by default as the bag says.
 
     Cost: about 4 s for 100 rounds of 8 agents, half of it the audit.
     """
-    records, end_s = recorded.records, seconds(recorded.end_ns)
-    audit = audit_run(scenario, method, records, recorded.end_ns, recorded.damage)
-    metrics = run_metrics(scenario, records, method, recorded.end_ns)
+    end_ns, end_s = recorded.end_ns, seconds(recorded.end_ns)
+    pace = recorded.pace if pace is None else pace
+    audit = audit_run(scenario, method, recorded.records, end_ns, recorded.damage, pace)
+    # What isn't usable the audit names.
+    records, _ = usable_parts(scenario, recorded.records)
+    metrics = run_metrics(scenario, records, method, end_ns)
     document = {
         "format": REPORT_FORMAT,
         "run": _run(scenario, method, recorded.notes, end_s),
         "ground": _ground(scenario),
-        "agents": _agents(scenario, records, end_s),
+        "agents": _agents(scenario, records, end_s, plans),
         "links": link_spans(records.connectivity, len(scenario.agents), end_s),
         "rounds": round_documents(scenario, method, records, end_s, said),
         "incidents": incidents(records.tasks),
         "field": _dump(reduction.field(scenario, end_s)),
         "metrics": metrics.document(),
+        "windows": [{"round": own.round, "satisfied": own.satisfied} for own in audit.windows],
         "audit": audit.document(),
     }
-    return {name: _finite(part) for name, part in document.items()}
+    return {name: finite(part) for name, part in document.items()}
 
 
 def _run(
@@ -80,12 +94,11 @@ def _ground(scenario: Scenario) -> dict[str, Any]:
     return {**reduction.ground(scenario).model_dump(mode="json"), "changes": changes}
 
 
-def _agents(scenario: Scenario, records: RunRecords, end_s: float) -> list[dict[str, Any]]:
-    placed = filter(_is_placed, records.odometry)
-    odometry, tasks = (
-        reduction.by_agent(scenario, placed),
-        reduction.by_agent(scenario, records.tasks),
-    )
+def _agents(
+    scenario: Scenario, records: RunRecords, end_s: float, plans: Mapping[str, Plans]
+) -> list[dict[str, Any]]:
+    odometry = reduction.by_agent(scenario, records.odometry)
+    tasks = reduction.by_agent(scenario, records.tasks)
     estimates = reduction.by_agent(scenario, records.estimates)
     return [
         {
@@ -97,13 +110,10 @@ def _agents(scenario: Scenario, records: RunRecords, end_s: float) -> list[dict[
             "satisfied_s": reduction.satisfactions_s(tasks[name]),
             "steps": done_steps(tasks[name]),
             "estimates": _dump(reduction.estimates(estimates[name])),
+            **plans.get(name, Plans()).document(),
         }
         for name, own in scenario.agents.items()
     ]
-
-
-def _is_placed(seen: Odometry) -> bool:
-    return math.isfinite(seen.pose.x_m) and math.isfinite(seen.pose.y_m)
 
 
 class _Model(Protocol):
@@ -114,12 +124,12 @@ def _dump(model: _Model | None) -> dict[str, Any] | None:
     return None if model is None else model.model_dump(mode="json")
 
 
-def _finite(value: Any) -> Any:  # noqa: ANN401 - any part of a document
+def finite(value: Any) -> Any:  # noqa: ANN401 - any part of a document
     """Return a part of a document with None for what JSON has no number for; fresh."""
     if isinstance(value, float):
         return value if math.isfinite(value) else None
     if isinstance(value, Mapping):
-        return {name: _finite(own) for name, own in value.items()}
+        return {name: finite(own) for name, own in value.items()}
     if isinstance(value, list | tuple):
-        return [_finite(own) for own in value]
+        return [finite(own) for own in value]
     return value

@@ -13,10 +13,10 @@ from typing import Any, Final
 
 from tlcomm_core.game.strategy import TeamStrategy
 from tlcomm_core.protocol.messages import BestResponse
+from tlcomm_core.wire.team_messages import decode_message
 from tlcomm_tools.bag.container import Channel
-from tlcomm_tools.bag.messages import read_messages
+from tlcomm_tools.bag.messages import read_messages, using
 from tlcomm_tools.bag.topics import AGENT_TOPICS
-from tlcomm_tools.wire_messages import read_team_message
 
 __all__ = ["Course", "courses", "read_best_responses"]
 
@@ -78,12 +78,15 @@ def read_best_responses(path: Path) -> tuple[BestResponse, ...]:
     """Return what agents said of their best responses, from a run's folder, a bag or a file.
 
     Raises:
-        InputError: there is no bag, or a message can't be decoded.
+        InputError: there is no bag, or a message can't be decoded or used.
     """
-    said = (
-        read_team_message(own.content, _TOPIC) for own in read_messages(path, _is_said).messages
-    )
-    return tuple(own for own in said if isinstance(own, BestResponse))
+    said = []
+    for message in read_messages(path, _is_said).messages:
+        with using(message):
+            own, _ = decode_message(message.content, _TOPIC)
+        if isinstance(own, BestResponse):
+            said.append(own)
+    return tuple(said)
 
 
 def _is_said(channel: Channel) -> bool:

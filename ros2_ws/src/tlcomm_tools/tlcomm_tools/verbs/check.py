@@ -1,17 +1,17 @@
 """Audit a run from its bag alone: what its method promises, tasks, agreement and places."""
 
 from argparse import ArgumentParser, Namespace
-from pathlib import Path
 from typing import Final
 
 from tlcomm_core.method import Method
 from tlcomm_tools.audit.findings import Audit, audit_run
 from tlcomm_tools.audit.tasks import TaskFinding
-from tlcomm_tools.bag.origin import find_method, find_scenario
+from tlcomm_tools.bag.origin import find_method, find_pace, find_scenario
 from tlcomm_tools.bag.reader import read_run
+from tlcomm_tools.collection import uncollected
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_number, format_table
-from tlcomm_tools.verbs.options import print_json
+from tlcomm_tools.verbs.options import add_recorded_arguments, print_json
 
 __all__ = ["EXAMPLE", "add_arguments", "run"]
 
@@ -22,27 +22,21 @@ _SHOWN_VIOLATIONS: Final = 30
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the verb's arguments."""
-    parser.add_argument(
-        "run", type=Path, metavar="RUN_OR_BAG", help="a run's folder, a bag's folder or MCAP file"
-    )
-    parser.add_argument(
-        "--scenario",
-        type=Path,
-        metavar="FILE",
-        help="the scenario (default: as the bag says, else scenario.yaml beside the bag)",
-    )
+    add_recorded_arguments(parser)
 
 
 def run(options: Namespace) -> Status:
     """Audit the run and show what was found."""
-    recorded = read_run(options.run)
-    audit = audit_run(
-        find_scenario(options.run, recorded, options.scenario),
-        find_method(options.run, recorded),
-        recorded.records,
-        recorded.end_ns,
-        recorded.damage,
-    )
+    with uncollected():
+        recorded = read_run(options.run)
+        audit = audit_run(
+            find_scenario(options.run, recorded, options.scenario),
+            find_method(options.run, recorded, options.method),
+            recorded.records,
+            recorded.end_ns,
+            recorded.damage,
+            find_pace(options.run, recorded, options.pace),
+        )
     if options.json:
         print_json(audit.document())
     else:
@@ -55,6 +49,9 @@ def _format_audit(audit: Audit) -> str:
     found = {label: text for own in audit.guarantees for label, text in own.shown.items()}
     if audit.method is not Method.NONE:
         found["strategies agreed"] = f"{agreed.equal} of {agreed.rounds} {_agreed_on(audit.method)}"
+    if audit.equilibria is not None:
+        own = audit.equilibria
+        found["equilibria judged"] = f"{own.judged} of {own.strategies} strategies"
     rows = [
         (
             own.agent,
@@ -77,6 +74,11 @@ def _format_audit(audit: Audit) -> str:
         parts += [format_table(("check", "violations"), broken), ""]
     if audit.note:
         parts.append(f"note: the bag was read only in part: {audit.note}")
+    parts += [
+        f"not available: {name}: {line}"
+        for name, lines in audit.unavailable.items()
+        for line in lines
+    ]
     if not audit.violations:
         return "\n".join([*parts, "verdict: ok"])
     shown = [f"  - {line}" for line in audit.violations[:_SHOWN_VIOLATIONS]]

@@ -11,6 +11,7 @@ from tlcomm_tools.verbs.options import (
     add_compression_argument,
     add_mission_arguments,
     add_pace_argument,
+    add_view_argument,
 )
 from tlcomm_tools.verbs.run import run_scenario
 
@@ -26,6 +27,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_mission_arguments(parser)
     add_pace_argument(parser)
     add_compression_argument(parser)
+    add_view_argument(parser)
 
 
 def run(options: Namespace) -> Status:

@@ -1,10 +1,12 @@
 """Options that several verbs share, and the types of their values.
 
 ``add_mission_arguments``  what is run, how long, and where to
+``add_recorded_arguments``  a run to look at, and what it was if its bag doesn't say
 ``add_pace_argument``      how simulated time goes on
 ``add_compression_argument``  how the bag is compressed
 ``add_seed_argument``      what chance is drawn from
 ``add_solver_argument``    how rounds are solved
+``add_view_argument``      whether a browser can look on
 ``positive_int``, ``not_negative_int``, ``positive_float``, ``positive_fraction``   types
 ``not_negative_float``, ``share``, ``seed``, ``team_size``   more types
 ``pace``, ``method``, ``solver``, ``compression``  more types
@@ -32,8 +34,10 @@ __all__ = [
     "add_compression_argument",
     "add_mission_arguments",
     "add_pace_argument",
+    "add_recorded_arguments",
     "add_seed_argument",
     "add_solver_argument",
+    "add_view_argument",
     "compression",
     "method",
     "mission_end",
@@ -217,6 +221,31 @@ def add_seed_argument(parser: argparse.ArgumentParser, of: str = "all that is ra
     parser.add_argument("--seed", type=seed, default=0, metavar="N", help=f"of {of} (default 0)")
 
 
+def add_recorded_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the run or bag, and what it may not say of itself."""
+    parser.add_argument(
+        "run", type=Path, metavar="RUN_OR_BAG", help="a run's folder, a bag's folder or MCAP file"
+    )
+    parser.add_argument(
+        "--scenario",
+        type=Path,
+        metavar="FILE",
+        help="the scenario (default: as the bag says, else scenario.yaml beside the bag)",
+    )
+    parser.add_argument(
+        "--method",
+        type=method,
+        metavar="NAME",
+        help=f"one of {', '.join(Method)} (default: as the bag says, else {Method.TEAM})",
+    )
+    parser.add_argument(
+        "--pace",
+        type=pace,
+        metavar="lockstep|FACTOR",
+        help="how simulated time went on (default: as the bag says)",
+    )
+
+
 def add_pace_argument(parser: argparse.ArgumentParser) -> None:
     """Add how simulated time goes on."""
     parser.add_argument(
@@ -236,6 +265,15 @@ def add_compression_argument(parser: argparse.ArgumentParser) -> None:
         default=DEFAULT_COMPRESSION,
         metavar="NAME",
         help=f"of the bag: {', '.join(Compression)} (default {DEFAULT_COMPRESSION})",
+    )
+
+
+def add_view_argument(parser: argparse.ArgumentParser) -> None:
+    """Add whether a browser can look on."""
+    parser.add_argument(
+        "--view",
+        action="store_true",
+        help="serve a page on this machine that shows the run as it goes on",
     )
 
 

@@ -5,14 +5,15 @@ from pathlib import Path
 from typing import Final
 
 from tlcomm_core.errors import InputError
-from tlcomm_tools.bag.origin import find_method, find_scenario
+from tlcomm_tools.bag.origin import find_method, find_pace, find_scenario
 from tlcomm_tools.bag.reader import read_run
 from tlcomm_tools.folder import replace_file
 from tlcomm_tools.report.document import report_document
 from tlcomm_tools.report.moves import read_best_responses
 from tlcomm_tools.report.page import render_page
+from tlcomm_tools.report.plans import read_plans
 from tlcomm_tools.status import Status
-from tlcomm_tools.verbs.options import print_json
+from tlcomm_tools.verbs.options import add_recorded_arguments, print_json
 
 __all__ = ["EXAMPLE", "add_arguments", "run"]
 
@@ -21,9 +22,7 @@ EXAMPLE: Final = "tlcomm report runs/plant-team-20260101-120000 -o plant.html"
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the verb's arguments."""
-    parser.add_argument(
-        "run", type=Path, metavar="RUN_OR_BAG", help="a run's folder, a bag's folder or MCAP file"
-    )
+    add_recorded_arguments(parser)
     parser.add_argument(
         "-o",
         "--out",
@@ -32,12 +31,6 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="FILE.html",
         help="write the page here; a file that is there already is replaced",
     )
-    parser.add_argument(
-        "--scenario",
-        type=Path,
-        metavar="FILE",
-        help="the scenario (default: as the bag says, else scenario.yaml beside the bag)",
-    )
 
 
 def run(options: Namespace) -> Status:
@@ -45,8 +38,10 @@ def run(options: Namespace) -> Status:
     _require_writable(options.out)
     recorded = read_run(options.run)
     scenario = find_scenario(options.run, recorded, options.scenario)
-    method, said = find_method(options.run, recorded), read_best_responses(options.run)
-    document = report_document(scenario, method, recorded, said)
+    method = find_method(options.run, recorded, options.method)
+    pace = find_pace(options.run, recorded, options.pace)
+    said, plans = read_best_responses(options.run), read_plans(options.run)
+    document = report_document(scenario, method, recorded, said, plans, pace)
     text = render_page(document)
     replace_file(options.out, text)
     verdict = document["audit"]["verdict"]

@@ -19,6 +19,7 @@ from tlcomm_tools.verbs.options import (
     add_compression_argument,
     add_mission_arguments,
     add_pace_argument,
+    add_view_argument,
     mission_end,
     print_json,
 )
@@ -34,6 +35,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_mission_arguments(parser)
     add_pace_argument(parser)
     add_compression_argument(parser)
+    add_view_argument(parser)
 
 
 def run(options: Namespace) -> Status:
@@ -61,9 +63,10 @@ def run_scenario(scenario: Scenario, options: Namespace) -> Status:
         until_s=until_s,
         out=options.out,
         compression=options.compression,
+        has_view=options.view,
     )
     with Progress.towards(rounds, limit_s, options.method) as progress:
-        report = run_mission(what, progress.show)
+        report = run_mission(what, progress.show, lambda line: progress.tell(f"tlcomm: {line}"))
     if options.json:
         print_json({**report.result, "folder": str(report.folder.path)})
     else:

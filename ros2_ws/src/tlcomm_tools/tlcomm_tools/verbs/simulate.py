@@ -1,22 +1,20 @@
 """Run a scenario inside one process, without ROS: same agents, same world, same results."""
 
-import time
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import Final
 
 from tlcomm_core.errors import InputError
 from tlcomm_core.mission import Mission
-from tlcomm_core.result import RunFacts, result_document
 from tlcomm_core.scenario.loader import dumps, load_scenario
 from tlcomm_core.scenario.site import Site
-from tlcomm_core.simulation import simulate
 from tlcomm_core.units import seconds
 from tlcomm_tools.folder import RunFolder
 from tlcomm_tools.limit import time_limit_s
 from tlcomm_tools.progress import Progress
 from tlcomm_tools.status import Status
 from tlcomm_tools.summary import format_summary
+from tlcomm_tools.timed_simulation import simulate_timed
 from tlcomm_tools.verbs.options import (
     LOCKSTEP,
     add_mission_arguments,
@@ -54,18 +52,10 @@ def run(options: Namespace) -> Status:
     )
     folder = RunFolder.create(scenario.name, options.method, options.out)
     folder.write_scenario(dumps(scenario))
-    begun_s = time.perf_counter()
     with Progress.towards(rounds, limit_s, options.method) as progress:
-        left = simulate(mission, lambda sim_ns, meetings: progress.show(seconds(sim_ns), meetings))
-    facts = RunFacts(
-        method=options.method,
-        solver=solver.name,
-        seed=options.seed,
-        pace=LOCKSTEP,
-        sim_s=seconds(left.sim_ns),
-        wall_s=time.perf_counter() - begun_s,
-    )
-    result = result_document(scenario, left.records, facts)
+        left, result = simulate_timed(
+            mission, lambda sim_ns, meetings: progress.show(seconds(sim_ns), meetings)
+        )
     folder.write_results(result, left.records)
     if options.json:
         print_json({**result, "folder": str(folder.path)})

@@ -11,7 +11,7 @@ from typing import Any, Final
 
 from tlcomm_core.units import seconds
 from tlcomm_tools.verification.mismatch import first_mismatch
-from tlcomm_tools.verification.outputs import Failure, Output
+from tlcomm_tools.verification.outputs import HEARING, Failure, Output
 
 __all__ = ["Comparison", "Difference"]
 
@@ -69,19 +69,27 @@ class Comparison:
         outputs: how many recorded messages have come out again.
     """
 
-    def __init__(self, agent: str, recorded: dict[int, list[Output]], end_ns: int) -> None:
+    def __init__(
+        self,
+        agent: str,
+        recorded: dict[int, list[Output]],
+        end_ns: int,
+        heard_until_ns: int | None = None,
+    ) -> None:
         """Begin with nothing compared.
 
         Args:
             agent: whose record it is.
             recorded: what the agent did at which instants, in order of time.
             end_ns: the last instant of the record.
+            heard_until_ns: up to when it has what the agent heard; ``None``: not at all.
         """
         self.instants = 0
         self.outputs = 0
         self._agent: Final = agent
         self._recorded: Final = dict(recorded)
         self._end_ns: Final = end_ns
+        self._heard_until_ns: Final = -1 if heard_until_ns is None else heard_until_ns
 
     def compare(
         self, instants: Iterable[tuple[int, Sequence[Output]]], until_ns: int
@@ -103,6 +111,8 @@ class Comparison:
 
     def _compare_instant(self, now_ns: int, came_out: Sequence[Output]) -> Difference | None:
         recorded = self._recorded.pop(now_ns, [])
+        if now_ns > self._heard_until_ns:
+            came_out = [own for own in came_out if own.topic != HEARING]
         for topic in dict.fromkeys(own.topic for own in (*came_out, *recorded)):
             pairs = zip_longest(
                 [own for own in recorded if own.topic == topic],

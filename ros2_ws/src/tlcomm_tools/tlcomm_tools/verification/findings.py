@@ -94,7 +94,9 @@ def verify(recording: Recording) -> Verification:
     until_ns, first = recording.end_ns, None
     rehearsed = []
     for name in setting.site.scenario.agents:
-        comparison = Comparison(name, recorded_outputs(recording, name), recording.end_ns)
+        recorded = recorded_outputs(recording, name)
+        heard_until_ns = recording.run.records.heard_until_ns.get(name)
+        comparison = Comparison(name, recorded, recording.end_ns, heard_until_ns)
         instants = _rehearsal(name, setting, atlas, recording, until_ns)
         found = comparison.compare(instants, until_ns)
         rehearsed.append(Rehearsed(name, comparison.instants, comparison.outputs))

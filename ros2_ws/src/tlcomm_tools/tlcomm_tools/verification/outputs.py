@@ -3,12 +3,12 @@
 ``Output``            one of these things
 ``Failure``           that an agent can't go on
 ``output_of``         what an action of a brain's is
+``hearing_of``        what an agent's radio has let through
 ``recorded_outputs``  what an agent did, by instants
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Final
 
 from tlcomm_core.agent.actions import (
@@ -22,28 +22,16 @@ from tlcomm_core.agent.actions import (
     SendMessage,
     TaskEvent,
 )
+from tlcomm_core.agent.member import Member
 from tlcomm_core.game.strategy import TeamStrategy
-from tlcomm_core.protocol.messages import (
-    BestResponse,
-    Confirmation,
-    EstimateExchange,
-    PlanOffer,
-    Proposal,
-    TeamMessage,
-)
+from tlcomm_core.protocol.messages import TeamMessage
+from tlcomm_core.protocol.topics import topic_of
+from tlcomm_core.records import HeardRecord
 from tlcomm_tools.verification.recording import Recording
 
-__all__ = ["Failure", "Output", "output_of", "recorded_outputs"]
+__all__ = ["HEARING", "Failure", "Output", "hearing_of", "output_of", "recorded_outputs"]
 
-_TOPICS: Final[Mapping[type[TeamMessage], str]] = MappingProxyType(
-    {
-        PlanOffer: "plan_offer",
-        Proposal: "proposal",
-        BestResponse: "best_response",
-        Confirmation: "confirmation",
-        EstimateExchange: "estimate_exchange",
-    }
-)
+HEARING: Final = "hearing"
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +55,7 @@ class Output:
     """
 
     topic: str
-    value: Drive | TaskEvent | TeamStrategy | ReportEstimate | TeamMessage | Failure
+    value: Drive | TaskEvent | TeamStrategy | ReportEstimate | TeamMessage | HeardRecord | Failure
 
 
 def output_of(action: Action) -> Output | None:
@@ -82,9 +70,22 @@ def output_of(action: Action) -> Output | None:
         case ReportEstimate():
             return Output("estimate", action)
         case SendMessage(message) | SayEstimate(message):
-            return Output(_TOPICS[type(message)], message)
+            return Output(topic_of(message), message)
         case CountIgnored():
             return None
+
+
+def hearing_of(member: Member, now_ns: int) -> list[Output]:
+    """Return what an agent's radio has let through to its last step, which was now."""
+    return [
+        Output(
+            HEARING,
+            HeardRecord(
+                now_ns, member.name, own.message.sender, topic_of(own.message), own.said_ns
+            ),
+        )
+        for own in member.heard
+    ]
 
 
 def recorded_outputs(recording: Recording, agent: str) -> dict[int, list[Output]]:
@@ -111,5 +112,7 @@ def _recorded(recording: Recording) -> Iterator[tuple[int, str, Output]]:
     for own in records.estimates:
         report = ReportEstimate(own.value, own.last_measurement if own.has_measurement else None)
         yield own.stamp_ns, own.agent, Output("estimate", report)
+    for heard in records.heard:
+        yield heard.stamp_ns, heard.agent, Output(HEARING, heard)
     for said in recording.said:
-        yield said.stamp_ns, said.agent, Output(_TOPICS[type(said.message)], said.message)
+        yield said.stamp_ns, said.agent, Output(topic_of(said.message), said.message)

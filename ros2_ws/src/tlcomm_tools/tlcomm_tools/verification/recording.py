@@ -17,15 +17,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tlcomm_core.agent.actions import Drive
-from tlcomm_core.errors import InputError
 from tlcomm_core.protocol.messages import TeamMessage
+from tlcomm_core.protocol.topics import TEAM_TOPICS
+from tlcomm_core.wire.fields import decode_stamp
+from tlcomm_core.wire.team_messages import decode_message
+from tlcomm_core.wire.world_messages import decode_command, decode_map, decode_reading
 from tlcomm_core.world.observation import Reading
 from tlcomm_tools.bag.container import Channel
-from tlcomm_tools.bag.messages import BagMessage, read_messages
+from tlcomm_tools.bag.messages import BagMessage, read_messages, using
 from tlcomm_tools.bag.reader import RecordedRun, read_run
-from tlcomm_tools.bag.topics import TEAM_TOPICS, split_topic
-from tlcomm_tools.wire import stamp_ns
-from tlcomm_tools.wire_messages import read_command, read_map, read_reading, read_team_message
+from tlcomm_tools.bag.topics import split_topic
 
 __all__ = ["Commanded", "MapShown", "Recording", "Said", "read_recording"]
 
@@ -110,12 +111,8 @@ def read_recording(path: Path) -> Recording:
     run, bag = read_run(path), read_messages(path, _is_wanted)
     recording = Recording(run, topics=bag.topics)
     for message in bag.messages:
-        try:
+        with using(message):
             _take(recording, message)
-        except (AttributeError, TypeError, ValueError) as error:
-            # The file's own definition of a type may be another than ours.
-            topic = f"/{message.agent}/{message.topic}".replace("//", "/")
-            raise InputError(f"a message on {topic!r} can't be used: {error}") from error
     for entries in (recording.said, recording.commanded, recording.maps, recording.readings):
         entries.sort(key=attrgetter("stamp_ns"))
     return recording
@@ -131,13 +128,14 @@ def _is_wanted(channel: Channel) -> bool:
 
 def _take(recording: Recording, message: BagMessage) -> None:
     agent, content = message.agent, message.content
-    time_ns = stamp_ns(content.header.stamp)
     match message.topic:
         case "cmd_vel":
-            recording.commanded.append(Commanded(time_ns, agent, read_command(content)))
+            drive, time_ns = Drive(*decode_command(content)), decode_stamp(content.header.stamp)
+            recording.commanded.append(Commanded(time_ns, agent, drive))
         case "map":
-            recording.maps.append(MapShown(time_ns, read_map(content)))
+            recording.maps.append(MapShown(*decode_map(content)))
         case "reading":
-            recording.readings.append(read_reading(content))
+            recording.readings.append(decode_reading(content))
         case topic:
-            recording.said.append(Said(time_ns, agent, read_team_message(content, topic)))
+            said, time_ns = decode_message(content, topic)
+            recording.said.append(Said(time_ns, agent, said))

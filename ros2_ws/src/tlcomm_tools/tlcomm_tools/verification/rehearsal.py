@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from tlcomm_core.agent.member import Member
 from tlcomm_core.world.observation import Odometry, Reading
 from tlcomm_tools.verification.inputs import Inputs, Neighbours, Told
-from tlcomm_tools.verification.outputs import Failure, Output, output_of
+from tlcomm_tools.verification.outputs import Failure, Output, hearing_of, output_of
 from tlcomm_tools.verification.recording import MapShown, Said
 
 __all__ = ["rehearse"]
@@ -75,4 +75,4 @@ def _act(member: Member, now_ns: int) -> list[Output]:
     except Exception as error:  # noqa: BLE001 (whatever a brain fails with is what came out)
         return [Output("failure", Failure(f"{type(error).__name__}: {error}"))]
     outputs = map(output_of, actions)
-    return [output for output in outputs if output is not None]
+    return [*hearing_of(member, now_ns), *(output for output in outputs if output is not None)]

@@ -18,7 +18,7 @@ from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.units import NANOSECONDS_PER_SECOND, seconds
 from tlcomm_core.world.observation import Connectivity
-from tlcomm_tools.bag.topics import recorded_topics
+from tlcomm_tools.bag.topics import OPTIONAL_TOPICS, recorded_topics, split_topic
 from tlcomm_tools.verification.recording import Recording
 
 __all__ = ["Setting", "setting_of"]
@@ -77,7 +77,8 @@ def _require_lock_step(text: str) -> None:
 
 def _require_topics(recording: Recording, scenario: Scenario) -> None:
     for topic in recorded_topics(scenario.agents, measures=scenario.field is not None):
-        if topic.name not in recording.topics:
+        is_optional = split_topic(topic.name)[1] in OPTIONAL_TOPICS
+        if topic.name not in recording.topics and not is_optional:
             raise InputError(f"the bag has no topic {topic.name!r}, which verifying needs")
 
 

@@ -2,6 +2,8 @@
 
 const STEPS_BEFORE = 2;
 const STEPS_SHOWN = 7;
+// While the run goes on, what is known of the chosen agent is renewed every so many changes.
+const GROWTHS_SHOWN = 4;
 const entries = [];
 let shownKey = "";
 
@@ -54,7 +56,8 @@ function drawChosenAgent() {
   const done = agent.steps.filter((step) => step[0] <= view.time).length;
   const satisfied = agent.satisfied_s.filter((time) => time <= view.time).length;
   const meeting = nextMeetingOf(agent, view.time);
-  const key = [view.agent, done, satisfied, meeting ? ROUNDS.indexOf(meeting) : ""].join(" ");
+  const age = Math.floor(growths / GROWTHS_SHOWN);
+  const key = [view.agent, done, satisfied, meeting ? ROUNDS.indexOf(meeting) : "", age].join(" ");
   if (key === shownKey) return;
   shownKey = key;
   byId("agent").replaceChildren(
@@ -68,15 +71,20 @@ function drawChosenAgent() {
 }
 
 function describeTask(agent, satisfied) {
-  const found = DATA.audit.tasks[agent.name];
   const own = DATA.metrics.agents[agent.name];
-  return `Satisfied ${satisfied} × by now, ${agent.satisfied_s.length} × in all; `
-    + `the audit counts ${told(found?.satisfied, 0)}${found?.verdict ? ` and finds it ${found.verdict}` : ""}. `
+  return `Satisfied ${satisfied} × by now, ${agent.satisfied_s.length} × in all${describeAudit(agent)}. `
     + `One cycle takes ${told(own.mean_cycle_s)} s on average; ${told(own.distance_m)} m driven in all.`;
 }
 
+function describeAudit(agent) {
+  if (DATA.audit === null) return "";
+  const found = DATA.audit.tasks[agent.name];
+  return `; the audit counts ${told(found?.satisfied, 0)}`
+    + `${found?.verdict ? ` and finds it ${found.verdict}` : ""}`;
+}
+
 function describeNext(agent, round) {
-  if (!round) return "No further meeting was agreed on.";
+  if (!round) return `No further meeting ${isLive() ? "is agreed on yet" : "was agreed on"}.`;
   const own = round.members.find((member) => member.agent === agent.name);
   if (!RUN.has_meetings) {
     return `Next turn ${roundName(round)}: to ${toldPlace(own.place_m)} by ${told(own.planned_arrival_s)} s.`;

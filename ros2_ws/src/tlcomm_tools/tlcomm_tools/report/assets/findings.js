@@ -1,36 +1,69 @@
 // What was found: verdict, figures, audit.
 
 const VIOLATIONS_ON_TOP = 5;
+// While the run goes on, figures are renewed every so many changes.
+const GROWTHS_TOLD = 4;
+let toldVerdict;
+let toldIncidents;
+
+/** As the audit says or, of a run that was just looked on, as the run says itself. */
+const verdict = () => (DATA.audit ? DATA.audit.verdict : RUN.verdict);
 
 function setUpFindings() {
-  const { audit } = DATA;
-  const isFine = audit.verdict === "ok";
   byId("title").textContent = `${RUN.scenario} · ${RUN.method}`;
+  if (DATA.feed) byId("source").textContent = "Everything on this page comes from the run's messages.";
+  drawFindings();
+  onGrowth(() => {
+    drawVerdict();
+    if (!isLive() || growths % GROWTHS_TOLD === 1) drawFindings();
+  });
+}
+
+function drawFindings() {
+  drawSubtitle();
+  byId("figures").replaceChildren(...keyFigures().map(figureTile));
+  drawVerdict();
+  // Not each time: a reader may be in the midst of it.
+  if (toldIncidents === DATA.incidents.length && toldVerdict === verdict()) return;
+  toldIncidents = DATA.incidents.length;
+  toldVerdict = verdict();
+  showViolations();
+  showAudit();
+}
+
+function drawSubtitle() {
   byId("subtitle").textContent = [
     `${AGENTS.length} agents`, `${told(RUN.end_s)} s simulated`,
     `R = ${told(RUN.range_m, 2)} m, T_c = ${told(RUN.period_s)} s, D_c = ${told(RUN.duration_s)} s`,
     ...(RUN.solver === null ? [] : [`solver ${RUN.solver}`]),
     ...(RUN.seed === null ? [] : [`seed ${RUN.seed}`]),
   ].join(" · ");
-  byId("verdict").textContent = `verdict: ${isFine ? "ok" : "FAILED"}`;
-  byId("verdict").classList.toggle("ok", isFine);
-  if (!isFine) showViolations(audit.verdict);
-  byId("figures").append(...keyFigures().map(figureTile));
-  showAudit(audit);
 }
 
-function showViolations(lines) {
-  const list = byId("violations");
+function drawVerdict() {
+  const isFine = verdict() === "ok";
+  byId("map-title").textContent = isLive() ? "What is going on" : "What happened";
+  byId("verdict").textContent = state || `verdict: ${isFine ? "ok" : "FAILED"}`;
+  byId("verdict").classList.toggle("ok", isFine && !isLive());
+  byId("verdict").classList.toggle("running", isLive());
+}
+
+/** What failed; nothing of a run that goes on. */
+const violations = () => (Array.isArray(verdict()) ? verdict() : []);
+
+function showViolations() {
+  const lines = violations();
   const shown = lines.slice(0, VIOLATIONS_ON_TOP).map((line) => element("li", {}, line));
   const rest = lines.length - shown.length;
-  list.append(...shown, ...(rest > 0 ? [element("li", {}, `and ${rest} more, below`)] : []));
-  list.hidden = false;
+  const list = byId("violations");
+  list.replaceChildren(...shown, ...(rest > 0 ? [element("li", {}, `and ${rest} more, below`)] : []));
+  list.hidden = lines.length === 0;
 }
 
 /** [what, value, unit] of what is available. */
 function keyFigures() {
   const team = DATA.metrics.team;
-  const windows = DATA.audit.windows;
+  const { windows } = DATA;
   const kept = windows.filter((own) => own.satisfied).length;
   const figures = [
     ["windows kept", `${kept} of ${windows.length}`, ""],
@@ -53,16 +86,31 @@ function figureTile([what, value, unit]) {
   return element("div", {}, element("dt", {}, what), shown);
 }
 
-function showAudit(audit) {
+function showAudit() {
+  const parts = DATA.audit ? auditParts(DATA.audit) : [element("p", {}, describeMissingAudit())];
+  const lines = violations();
+  if (verdict()) parts.push(element("h3", {}, lines.length ? "Violations" : "No violations"));
+  parts.push(element("ul", {}, ...lines.map((line) => element("li", {}, line))));
+  if (DATA.incidents.length) parts.push(incidentTable());
+  byId("audit").replaceChildren(...parts);
+}
+
+/** Why there is no audit of a run that was just looked on. */
+function describeMissingAudit() {
+  const how = "Its bag is audited by tlcomm check, and shown with the audit by tlcomm report.";
+  return isLive()
+    ? `A run is audited when it is over. ${how}` : `This is what the run itself says at its end. ${how}`;
+}
+
+function auditParts(audit) {
+  const { equal, rounds } = audit.strategies;
   const parts = [taskTable(audit), promiseTable(audit)];
   if (audit.note) parts.unshift(element("p", {}, `The bag was read only in part: ${audit.note}`));
-  const { equal, rounds } = audit.strategies;
+  for (const [name, lines] of Object.entries(audit.unavailable)) {
+    lines.forEach((line) => parts.push(element("p", {}, `Not available: ${name}: ${line}`)));
+  }
   parts.push(element("p", {}, `Strategies agreed: ${equal} of ${rounds}.`));
-  const violations = audit.verdict === "ok" ? [] : audit.verdict;
-  parts.push(element("h3", {}, violations.length ? "Violations" : "No violations"));
-  parts.push(element("ul", {}, ...violations.map((line) => element("li", {}, line))));
-  if (DATA.incidents.length) parts.push(incidentTable());
-  byId("audit").append(...parts);
+  return parts;
 }
 
 function taskTable(audit) {

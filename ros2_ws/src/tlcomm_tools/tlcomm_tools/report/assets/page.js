@@ -16,5 +16,10 @@ setUpPlayback();
 setUpMap();
 setUpAgents();
 setUpRounds();
-show({ time: 0, round: ROUNDS.length ? 0 : null, ...readLink() });
+const begin = () => show({
+  time: isLive() ? RUN.end_s : 0, round: isLive() || !ROUNDS.length ? view.round : 0,
+  ...readLink(),
+});
+if (DATA.feed) listen(begin);
+else begin();
 addEventListener("hashchange", () => show(readLink()));

@@ -1,6 +1,7 @@
 // Time, and what is chosen: everything that moves is drawn from `view`.
 
-const view = { time: 0, isPlaying: false, speed: 10, agent: null, round: null };
+// Following: the time is the last that is known, while the run goes on.
+const view = { time: 0, isPlaying: false, isFollowing: false, speed: 10, agent: null, round: null };
 const SPEEDS = [1, 2, 5, 10, 20, 50, 100];
 const SMALL_STEP_S = 1;
 const LARGE_STEP_S = 10;
@@ -11,7 +12,10 @@ const onChange = (draw) => drawn.push(draw);
 
 /** Changes the view, and draws what depends on it. */
 function show(changes) {
-  if ("time" in changes) changes.time = Math.min(Math.max(changes.time, 0), RUN.end_s);
+  if ("time" in changes) {
+    changes.time = Math.min(Math.max(changes.time, 0), RUN.end_s);
+    view.isFollowing = isLive() && changes.time >= RUN.end_s;
+  }
   Object.assign(view, changes);
   drawn.forEach((draw) => draw(changes));
 }
@@ -22,7 +26,10 @@ function showRound(index) {
 }
 
 function play() {
-  if (view.time >= RUN.end_s) show({ time: 0 });
+  if (view.time >= RUN.end_s) {
+    show({ time: isLive() ? RUN.end_s : 0 });
+    if (view.isFollowing) return;
+  }
   show({ isPlaying: true });
   let before = performance.now();
   const advance = (now) => {
@@ -35,7 +42,8 @@ function play() {
   requestAnimationFrame(advance);
 }
 
-const toggle = () => (view.isPlaying ? show({ isPlaying: false }) : play());
+const isMoving = () => view.isPlaying || view.isFollowing;
+const toggle = () => (isMoving() ? show({ isPlaying: false, isFollowing: false }) : play());
 
 /** Goes to the meeting before or after the present time. */
 function skip(direction) {
@@ -60,8 +68,12 @@ function onKey(event) {
 
 function setUpPlayback() {
   const slider = byId("slider");
-  slider.max = RUN.end_s;
-  slider.addEventListener("input", () => show({ time: Number(slider.value) }));
+  // The slider's steps don't end where the run does.
+  const isAtEnd = () => Number(slider.value) > RUN.end_s - Number(slider.step);
+  slider.addEventListener("input", () => {
+    show({ time: isAtEnd() ? RUN.end_s : Number(slider.value) });
+  });
+  byId("live").addEventListener("click", () => show({ time: RUN.end_s, isPlaying: false }));
   byId("play").addEventListener("click", toggle);
   byId("earlier").addEventListener("click", () => skip(-1));
   byId("later").addEventListener("click", () => skip(1));
@@ -71,9 +83,12 @@ function setUpPlayback() {
   speed.addEventListener("change", () => show({ speed: Number(speed.value) }));
   document.addEventListener("keydown", onKey);
   onChange(() => {
+    slider.max = RUN.end_s;
     slider.value = view.time;
     slider.setAttribute("aria-valuetext", `${told(view.time)} seconds`);
-    byId("play").textContent = view.isPlaying ? "Pause" : "Play";
+    byId("play").textContent = isMoving() ? "Pause" : "Play";
+    byId("live").hidden = !isLive();
+    byId("live").setAttribute("aria-pressed", view.isFollowing);
     byId("clock").textContent = `${told(view.time)} s of ${told(RUN.end_s)} s`;
   });
 }

@@ -6,32 +6,44 @@ let shownRound = null;
 const ROUNDING_S = 0.001;
 
 function setUpRounds() {
-  if (ROUNDS.length === 0) {
-    byId("rounds-section").hidden = true;
-    return;
-  }
-  ROUNDS.forEach((round, index) => {
-    const isMissed = MISSED.has(round.round);
-    const button = element(
-      "button", { type: "button", className: isMissed ? "missed" : "" }, roundName(round),
-    );
-    button.title = isMissed ? "window missed" : "";
-    button.addEventListener("click", () => showRound(index));
-    byId("rounds").append(button);
-    buttons.push(button);
+  drawButtons();
+  onGrowth(() => {
+    const isNewest = view.round === null || view.round === buttons.length - 1;
+    drawButtons();
+    if (view.isFollowing && isNewest && ROUNDS.length) show({ round: ROUNDS.length - 1 });
   });
   onChange(drawRound);
 }
 
-function drawRound() {
-  if (view.round === null || view.round === shownRound) return;
-  if (shownRound !== null) buttons[shownRound].setAttribute("aria-pressed", false);
+function drawButtons() {
+  byId("rounds-section").hidden = ROUNDS.length === 0;
+  ROUNDS.forEach((round, index) => {
+    if (index === buttons.length) addButton(roundName(round), index);
+    const missed = isMissed(round.round);
+    buttons[index].className = missed ? "missed" : "";
+    buttons[index].title = missed ? "window missed" : "";
+  });
+}
+
+function addButton(name, index) {
+  const button = element("button", { type: "button" }, name);
+  button.addEventListener("click", () => showRound(index));
+  byId("rounds").append(button);
+  buttons.push(button);
+}
+
+function pressButton() {
   const button = buttons[view.round];
-  button.setAttribute("aria-pressed", true);
+  buttons.forEach((own) => own.setAttribute("aria-pressed", own === button));
   const list = byId("rounds");
   list.scrollTop = button.offsetTop - list.offsetTop - list.clientHeight / 2;
-  shownRound = view.round;
+}
+
+function drawRound() {
+  if (view.round === null || ROUNDS[view.round] === shownRound) return;
+  pressButton();
   const round = ROUNDS[view.round];
+  shownRound = round;
   const what = RUN.has_meetings ? "Meeting" : "Turn";
   byId("round").replaceChildren(
     element("h3", {}, `${what} ${roundName(round)}`),
@@ -48,9 +60,9 @@ function describeWhen(round) {
     + `${told(round.planned_s, 3)} s`;
   if (!RUN.has_meetings) return `${agreed}.`;
   const [opens, closes] = round.window_s;
-  const begun = round.started_s === null
-    ? "it didn't take place before the end" : `it began at ${told(round.started_s, 3)} s`;
-  const missed = MISSED.has(round.round) ? " The window was missed." : "";
+  const absent = isLive() ? "it hasn't begun yet" : "it didn't take place before the end";
+  const begun = round.started_s === null ? absent : `it began at ${told(round.started_s, 3)} s`;
+  const missed = isMissed(round.round) ? " The window was missed." : "";
   return `Window from ${told(opens)} s to ${told(closes)} s. ${agreed}, ${begun}.${missed}`;
 }
 

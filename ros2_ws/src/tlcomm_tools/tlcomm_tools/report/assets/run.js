@@ -50,6 +50,24 @@ function wayBetween(agent, start, end) {
   return way.filter(Boolean);
 }
 
+// Nearer than that, a corner has been passed.
+const AT_CORNER_M = 0.05;
+
+/** The corners that an agent had before it, as it had agreed. */
+function wayAhead(agent, time) {
+  const { times_s: times, way, first } = agent.ahead;
+  const row = lastUpTo(times, time);
+  if (row < 0) return [];
+  const corners = agent.ways[way[row]].slice(first[row]);
+  // Rows come every two seconds; what was driven since is left out.
+  let passed = 0;
+  for (const [x, y] of wayBetween(agent, times[row], time)) {
+    const next = corners[passed];
+    if (next && Math.hypot(next[0] - x, next[1] - y) < AT_CORNER_M) passed += 1;
+  }
+  return corners.slice(passed);
+}
+
 const spanAt = (agent, time) =>
   agent.spans.find((span) => span.start_s <= time && time < span.end_s);
 
@@ -77,7 +95,11 @@ const linksAt = (time) => DATA.links.filter((link) => link[2] <= time && time < 
 const startOf = (round) => round.started_s ?? round.planned_s;
 const endOf = (round) => startOf(round) + (RUN.has_meetings ? RUN.duration_s : 0);
 const hasMember = (round, name) => round.members.some((member) => member.agent === name);
-const BY_START = [...ROUNDS].sort((one, other) => startOf(one) - startOf(other));
+let BY_START = [];
+function sortRounds() {
+  BY_START = [...ROUNDS].sort((one, other) => startOf(one) - startOf(other));
+}
+sortRounds();
 
 /** The meetings that come next: at one time there are several, of pairs. */
 function nextMeetings(time) {
@@ -99,9 +121,8 @@ const obstaclesAt = (time) => {
 };
 
 const windowAt = (time) => Math.floor(time / RUN.period_s + 1e-9);
-const MISSED = new Set(
-  DATA.audit.windows.filter((own) => RUN.keeps_windows && !own.satisfied).map((own) => own.round),
-);
+const isMissed = (number) =>
+  RUN.keeps_windows && DATA.windows.some((own) => own.round === number && !own.satisfied);
 
 /** What a round is called: by its number, and by who meets unless all do. */
 function roundName(round) {

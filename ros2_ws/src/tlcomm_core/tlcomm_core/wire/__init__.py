@@ -1,0 +1,1 @@
+"""Messages as values, read by the names of their fields: of ROS, or of a bag's decoder."""
