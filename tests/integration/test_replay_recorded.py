@@ -103,7 +103,8 @@ def test_the_audit_of_a_replay_is_the_runs(
     assert "give it with --scenario FILE" in refusal(capsys, "check", str(again))
     assert read_run(again).notes == {}
     scenario = str(finished[0] / "scenario.yaml")
-    of_replay = run(capsys, "check", str(again), "--scenario", scenario, "--json")
+    told = ("--scenario", scenario, "--pace", "lockstep")
+    of_replay = run(capsys, "check", str(again), *told, "--json")
     of_run = run(capsys, "check", str(finished[0]), "--json")
     assert of_replay == of_run
     assert (of_run[0], json.loads(of_run[1])["verdict"]) == (0, "ok")

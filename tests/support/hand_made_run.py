@@ -1,7 +1,7 @@
 """A run made by hand: two agents on a line, two windows kept, both tasks satisfied twice."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -38,12 +38,16 @@ __all__ = [
     "MESSAGES",
     "SHARE",
     "UNDELIVERED",
+    "Change",
     "hand_made_records",
     "hand_made_scenario",
     "serialize_run",
     "task",
     "write_bag",
 ]
+
+Change = Callable[[str, Any], None]
+"""Changes a message, given its topic."""
 
 SHARE = Path(__file__).parents[2] / "ros2_ws" / "src" / "tlcomm_msgs"
 AGENTS = ("east", "west")
@@ -207,7 +211,13 @@ def task(  # noqa: D103 - says itself
 
 
 def write_bag(
-    folder: Path, records: RunRecords, *, with_scenario: bool = True, method: str | None = None
+    folder: Path,
+    records: RunRecords,
+    *,
+    with_scenario: bool = True,
+    method: str | None = None,
+    change: Change | None = None,
+    **more_notes: str,
 ) -> BagWriter:
     """Write records into a bag as the recorder does; return the closed writer.
 
@@ -216,16 +226,24 @@ def write_bag(
         records: what to write.
         with_scenario: whether the bag says which it is, and that it was in lock step.
         method: which the bag says; ``None`` for a bag from before there was more than one.
+        change: of the messages, each by its topic and decoded, before it is written.
+        more_notes: what else the bag says.
     """
     store = load_typestore(SHARE)
     topics = recorded_topics(AGENTS)
     definitions = {topic.type: read_definition(store, topic.type) for topic in topics}
     notes = {"scenario": dumps(hand_made_scenario()), "pace": "lockstep"} if with_scenario else {}
-    notes |= {} if method is None else {"method": method}
+    notes |= ({} if method is None else {"method": method}) | more_notes
     numbers = {topic.name: number for number, topic in enumerate(topics)}
     with BagWriter(folder, topics, definitions, notes) as writer:
         for name, stamp_ns, data in serialize_run(store, records):
-            writer.write(numbers[name], stamp_ns, data)
+            if change is None:
+                writer.write(numbers[name], stamp_ns, data)
+                continue
+            kind = topics[numbers[name]].type
+            message = store.deserialize_cdr(data, kind)
+            change(name, message)
+            writer.write(numbers[name], stamp_ns, bytes(store.serialize_cdr(message, kind)))
     return writer
 
 

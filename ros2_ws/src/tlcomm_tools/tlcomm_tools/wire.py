@@ -58,6 +58,8 @@ def read_odometry(message: DecodedMessage, agent: str) -> Odometry:
 def read_connectivity(message: DecodedMessage) -> Connectivity:
     """Read a ``tlcomm_msgs/Connectivity``; older ones have no distances."""
     ends = [int(end) for end in message.edges]
+    if len(ends) % 2:
+        raise ValueError(f"the {len(ends)} ends of edges aren't pairs")
     return Connectivity(
         stamp_ns=stamp_ns(message.header.stamp),
         edges=tuple(zip(ends[::2], ends[1::2], strict=True)),

@@ -1,14 +1,17 @@
 """Tests of ``tlcomm_tools.bag.container`` on whole, cut and foreign files."""
 
+import struct
 from io import BytesIO
 from pathlib import Path
 
 import pytest
+import zstandard
 from mcap.writer import CompressionType, Writer
 
 from support.hand_made_run import hand_made_records, write_bag
 from tlcomm_core.errors import InputError
 from tlcomm_tools.bag.container import Channel, Container, read_container
+from tlcomm_tools.bag.records import MAGIC, Opcode, record, string
 
 
 def read(path: Path) -> Container:
@@ -83,6 +86,15 @@ def test_every_flipped_byte_is_survived(tmp_path: Path) -> None:
         path.write_bytes(whole[:position] + bytes([whole[position] ^ 0xFF]) + whole[position + 1 :])
         noted += read(path).damage != ""
     assert noted > 0
+
+
+@pytest.mark.parametrize("size", [2**60, 2**64 - 1])
+def test_a_chunk_larger_than_memory_is_damage(tmp_path: Path, size: int) -> None:
+    """However large it says that it is: nothing is read of it."""
+    data = zstandard.ZstdCompressor(write_content_size=False).compress(bytes(1000))
+    content = struct.pack("<QQQI", 0, 0, size, 0) + string("zstd") + struct.pack("<Q", len(data))
+    (tmp_path / "a.mcap").write_bytes(MAGIC + record(Opcode.CHUNK, content + data))
+    assert read(tmp_path / "a.mcap").damage.startswith("a damaged record")
 
 
 @pytest.mark.parametrize("content", [b"", b"\x89MCAP", b"SQLite format 3\0 and more"])

@@ -2,9 +2,11 @@
 
 import json
 from dataclasses import replace
-from math import nan
+from math import inf, nan
 
-from support.hand_made_run import AGENTS, END_S, hand_made_records, hand_made_scenario
+from support.hand_made_run import AGENTS, END_S, hand_made_records, hand_made_scenario, task
+from tlcomm_core.agent.actions import TaskEventKind
+from tlcomm_core.geometry import Pose
 from tlcomm_core.method import Method
 from tlcomm_core.records import RunRecords
 from tlcomm_core.units import nanoseconds
@@ -38,13 +40,20 @@ def test_the_document_follows_each_agent() -> None:
     assert document["links"][0] == [0, 1, 0.0, 2.0]
 
 
-def test_numbers_that_are_none_are_not_available() -> None:
-    """The document is JSON whatever a bag holds."""
+def test_what_isnt_usable_is_left_to_the_audit() -> None:
+    """The document is JSON whatever a bag holds; what is no number or of nobody isn't in it."""
     records = hand_made_records()
     strategies = records.strategies
     strategies[:] = [
         replace(own, strategy=replace(own.strategy, potential_s=nan)) for own in strategies
     ]
+    records.odometry[3] = replace(records.odometry[3], pose=Pose(1e308, -inf, 0.0))
+    records.tasks.append(task(24.0, "ghost", TaskEventKind.FAULT))
     document = report_document(hand_made_scenario(), Method.TEAM, recorded(records))
-    assert document["rounds"][0]["potential_s"] is None
+    assert (document["rounds"], document["incidents"]) == ([], [])
+    assert {line.split(":")[0] for line in document["audit"]["checks"]["records"]} == {
+        "'ghost' is no agent of the scenario, and has 1 task event",
+        "east",
+        "west",
+    }
     assert json.dumps(document, allow_nan=False)

@@ -104,8 +104,8 @@ def test_check_wants_simulated_times(tmp_path: Path, capsys: pytest.CaptureFixtu
     records.odometry[-1] = replace(records.odometry[-1], stamp_ns=1_800_000_000_000_000_000)
     write_bag(tmp_path / "bag", records)
     assert refusal(capsys, "check", "bag") == (
-        "tlcomm: error: 'bag' has a message stamped 1800000000.000 s, more than 100000 windows "
-        "of 10 s after the start: expected simulated time from 0 on\n"
+        "tlcomm: error: 'bag' has a message stamped 1800000000.000 s, expected simulated time: "
+        "from 0 on, and 100000 windows at most, 1e+06 s\n"
     )
 
 

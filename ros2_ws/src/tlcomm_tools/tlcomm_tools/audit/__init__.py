@@ -8,6 +8,7 @@
 ``progress``    what a word says of a task: the runtime monitor's verdict
 ``tasks``       each task's verdict and satisfactions
 ``trespass``    whether agents kept out of what their tasks forbid
+``membership``  what is of nobody whom the scenario names, and is left out
 ``finiteness``  what isn't a number, and is left out
 ``motion``      whether agents drove as they can: no faster, and without jumps
 ``clearance``   whether agents kept clear of obstacles, which may come and go
@@ -18,6 +19,7 @@
 ``strategies``  whether those who agree hold the same strategies
 ``plans``       whether their meetings are connected, in their windows and to be had in time
 ``meetings``    whether their places are as the scenario demands
+``equilibria``  whether anybody could have gained alone, by the plans that were laid open
 ``proximity``   whether two agents were in range and sight of each other at given times
 ``hearing``     whether agents heard only what was said, by somebody in range, and not before
 ``findings``    all of it as one document: ``audit_run`` is the way in

@@ -107,10 +107,13 @@ def _last_endings_ns(evidence: Evidence) -> dict[str, int]:
 
 
 def _turns(evidence: Evidence) -> Iterator[Agreement]:
-    """Yield the turns; the run may have ended while the last was being agreed on."""
+    """Yield the turns; the run may have ended while the last was being agreed on.
+
+    Of turns in a row that nobody holds a strategy for, the first stands for all.
+    """
     held = _held(evidence.records.strategies)
     last = max(held, default=0)
-    for number in range(min(held, default=1), last + 1):
+    for number in sorted(held.keys() | {own + 1 for own in held if own < last}):
         owing = frozenset(evidence.agents) if number < last else frozenset()
         yield Agreement(f"turn {number}", evidence.agents, held.get(number, {}), owing, 0.0)
 

@@ -1,6 +1,7 @@
 """What an audit looks at: the records of a run, and what follows from them alone.
 
-``Evidence``  a run as it was
+``Evidence``      a run as it was
+``usable_parts``  of what was recorded
 """
 
 from collections.abc import Sequence
@@ -12,9 +13,10 @@ from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.world.observation import Odometry
 from tlcomm_tools.audit.finiteness import keep_finite
 from tlcomm_tools.audit.links import Interval, WindowFinding, judge_windows, team_intervals
+from tlcomm_tools.audit.membership import keep_members
 from tlcomm_tools.audit.tracks import Track, build_tracks
 
-__all__ = ["Evidence"]
+__all__ = ["Evidence", "usable_parts"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,10 +25,10 @@ class Evidence:
 
     Attributes:
         scenario: what was asked for.
-        records: what was recorded, as far as it is finite.
+        records: what was recorded, as far as it is usable.
         end_s: end of the run.
         track_of: where each agent was; nothing of agents without odometry.
-        faults: what isn't finite, and where odometry is missing, a line each.
+        faults: what isn't usable, and where odometry is missing, a line each.
     """
 
     scenario: Scenario
@@ -38,10 +40,10 @@ class Evidence:
     @classmethod
     def gather(cls, scenario: Scenario, records: RunRecords, end_s: float) -> "Evidence":
         """Return what a run's records tell."""
-        finite, flaws = keep_finite(records)
-        tracks, faults = build_tracks(finite.odometry, tuple(scenario.agents), end_s)
+        usable, flaws = usable_parts(scenario, records)
+        tracks, faults = build_tracks(usable.odometry, tuple(scenario.agents), end_s)
         track_of = {track.agent: track for track in tracks}
-        return cls(scenario, finite, end_s, track_of, (*flaws, *faults))
+        return cls(scenario, usable, end_s, track_of, (*flaws, *faults))
 
     @property
     def agents(self) -> tuple[str, ...]:
@@ -87,3 +89,10 @@ class Evidence:
     def _judge(self, intervals: Sequence[Interval]) -> list[WindowFinding]:
         links = self.scenario.communication
         return judge_windows(intervals, links.period_s, links.duration_s, self.end_s)
+
+
+def usable_parts(scenario: Scenario, records: RunRecords) -> tuple[RunRecords, tuple[str, ...]]:
+    """Return the scenario's agents' records that are numbers, and a line for each other kind."""
+    ours, strangers = keep_members(records, frozenset(scenario.agents))
+    finite, flaws = keep_finite(ours)
+    return finite, (*strangers, *flaws)

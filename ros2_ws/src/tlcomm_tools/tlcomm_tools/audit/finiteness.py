@@ -6,9 +6,10 @@
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
-from typing import Protocol, TypeVar
+from itertools import filterfalse
+from typing import Final, Protocol, TypeVar
 
-from tlcomm_core.records import EstimateRecord, RunRecords, StrategyRecord
+from tlcomm_core.records import EstimateRecord, OfferRecord, RunRecords, StrategyRecord
 from tlcomm_core.world.observation import Odometry
 
 __all__ = ["keep_finite"]
@@ -24,17 +25,24 @@ class _Stamped(Protocol):
 
 _Own = TypeVar("_Own", bound=_Stamped)
 
+# In any unit here, more than that is no measure of anything; its square is still finite.
+_MOST: Final = 1e12
+
 
 def keep_finite(records: RunRecords) -> tuple[RunRecords, tuple[str, ...]]:
     """Return the records without those that hold NaN or infinities, and a line per kind and agent.
 
-    Nothing can be reckoned with them: a comparison with NaN holds for no violation.
+    Nothing can be reckoned with them: a comparison with NaN holds for no violation. A number that
+    is too large for any measure, and whose square might be infinite, is taken for infinite.
     """
     odometry, odometry_lines = _parted(records.odometry, _of_odometry, "odometry")
     strategies, strategy_lines = _parted(records.strategies, _of_strategy, "strategy")
     estimates, estimate_lines = _parted(records.estimates, _of_estimate, "estimate")
-    kept = replace(records, odometry=odometry, strategies=strategies, estimates=estimates)
-    return kept, (*odometry_lines, *strategy_lines, *estimate_lines)
+    offers, offer_lines = _parted(records.offers, _of_offer, "offer")
+    kept = replace(
+        records, odometry=odometry, strategies=strategies, estimates=estimates, offers=offers
+    )
+    return kept, (*odometry_lines, *strategy_lines, *estimate_lines, *offer_lines)
 
 
 def _parted(
@@ -44,19 +52,24 @@ def _parted(
     kept: list[_Own] = []
     bad: dict[str, list[_Own]] = {}
     for entry in entries:
-        if all(map(math.isfinite, numbers_of(entry))):
+        if all(map(_is_measure, numbers_of(entry))):
             kept.append(entry)
         else:
             bad.setdefault(entry.agent, []).append(entry)
     return kept, [
-        f"{agent}: {own[0].stamp_ns * 1e-9:.3f} s: {what} with {_first_bad(numbers_of(own[0]))!r}, "
-        f"not a finite number, {len(own)} in all"
+        f"{agent}: {own[0].stamp_ns * 1e-9:.3f} s: {what} with "
+        f"{_fault(next(filterfalse(_is_measure, numbers_of(own[0]))))}, {len(own)} in all"
         for agent, own in sorted(bad.items())
     ]
 
 
-def _first_bad(numbers: Iterator[float]) -> float:
-    return next(number for number in numbers if not math.isfinite(number))
+def _is_measure(number: float) -> bool:
+    # NaN isn't less than anything.
+    return abs(number) < _MOST
+
+
+def _fault(number: float) -> str:
+    return f"{number!r}, {'too large a' if math.isfinite(number) else 'not a finite'} number"
 
 
 def _of_odometry(own: Odometry) -> Iterator[float]:
@@ -68,6 +81,14 @@ def _of_strategy(own: StrategyRecord) -> Iterator[float]:
     yield from (held.communication_s, held.potential_s, held.initial_potential_s)
     for one in held.strategies:
         yield from (one.x_m, one.y_m, one.arrival_s, one.extra_travel_s)
+
+
+def _of_offer(own: OfferRecord) -> Iterator[float]:
+    offer = own.offer
+    yield from (offer.arrival_s, offer.x_m, offer.y_m, offer.yaw_rad)
+    yield from (offer.linear_mps, offer.angular_radps)
+    for stop in offer.stops:
+        yield from (stop.x_m, stop.y_m, stop.yaw_rad, stop.finish_offset_s)
 
 
 def _of_estimate(own: EstimateRecord) -> Iterator[float]:

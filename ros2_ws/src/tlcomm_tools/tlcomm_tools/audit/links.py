@@ -125,7 +125,7 @@ def _connected(changes: Sequence[tuple[float, bool, int, int]], agents: int) -> 
 
 def reaches_all(neighbours: Sequence[int]) -> bool:
     """Return whether each node, given by a bit mask of its neighbours, reaches every other."""
-    reached = frontier = 1
+    reached = frontier = min(1, len(neighbours))
     while frontier:
         agent = frontier.bit_length() - 1
         frontier &= ~(1 << agent)

@@ -71,7 +71,7 @@ def _miscounted(agreement: Agreement) -> Iterator[str]:
         if names != sorted(agreement.agents):
             yield f"{name}: strategies of {names}, not of each agent in order"
             continue
-        starts_s = max(agreement.opens_s, *(own.arrival_s for own in strategy.strategies))
+        starts_s = max((agreement.opens_s, *(own.arrival_s for own in strategy.strategies)))
         total_s = sum(own.extra_travel_s + starts_s - own.arrival_s for own in strategy.strategies)
         if abs(starts_s - strategy.communication_s) > _SLACK_S:
             yield f"{name}: t_c is {strategy.communication_s:.6f} s, not {starts_s:.6f} s"

@@ -11,6 +11,7 @@ from typing import Final
 from tlcomm_core.errors import InputError
 from tlcomm_core.method import Method
 from tlcomm_core.pace import Pace
+from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.loader import load_scenario, loads
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import seconds
@@ -30,15 +31,12 @@ def find_scenario(path: Path, recorded: RecordedRun, given: Path | None) -> Scen
         given: the user's choice.
 
     Raises:
-        InputError: there is none, it is wrong, or the bag's times can't be those of a run of it.
+        InputError: there is none, it is wrong, or agents or times in the bag can't be of a run of
+            it.
     """
     scenario = _choose_scenario(path, recorded, given)
-    end_s, period_s = seconds(recorded.end_ns), scenario.communication.period_s
-    if end_s > _MOST_WINDOWS * period_s:
-        raise InputError(
-            f"{str(path)!r} has a message stamped {end_s:.3f} s, more than {_MOST_WINDOWS} windows "
-            f"of {period_s:g} s after the start: expected simulated time from 0 on"
-        )
+    _require_agents(path, recorded, scenario)
+    _require_times(path, recorded, scenario)
     return scenario
 
 
@@ -56,12 +54,14 @@ def find_method(path: Path, recorded: RecordedRun, given: Method | None = None) 
         raise InputError(f"{str(path)!r}: {error}") from None
 
 
-def find_pace(path: Path, recorded: RecordedRun) -> Pace | None:
-    """Return how simulated time went on; ``None`` if the bag doesn't say.
+def find_pace(path: Path, recorded: RecordedRun, given: Pace | None = None) -> Pace | None:
+    """Return how simulated time went on, as given or as the bag says; ``None`` if neither does.
 
     Raises:
         InputError: the bag names a pace that is none.
     """
+    if given is not None:
+        return given
     try:
         return recorded.pace
     except InputError as error:
@@ -78,3 +78,31 @@ def _choose_scenario(path: Path, recorded: RecordedRun, given: Path | None) -> S
         if file.is_file():
             return load_scenario(file)
     raise InputError(f"{str(path)!r} says nothing of its scenario: give it with --scenario FILE")
+
+
+def _require_agents(path: Path, recorded: RecordedRun, scenario: Scenario) -> None:
+    """Refuse another team's bag: its links are between agents by their places in the team."""
+    if recorded.records.connectivity and recorded.agents != tuple(scenario.agents):
+        raise InputError(
+            f"{str(path)!r} is of the agents {list(recorded.agents)!r}, "
+            f"the scenario {scenario.name!r} of {list(scenario.agents)!r}"
+        )
+
+
+def _require_times(path: Path, recorded: RecordedRun, scenario: Scenario) -> None:
+    """Refuse stamps of another clock: the audit would go through years of windows."""
+    begin_s, end_s = seconds(_begin_ns(recorded.records)), seconds(recorded.end_ns)
+    most_s = _MOST_WINDOWS * scenario.communication.period_s
+    for stamp_s in (begin_s, end_s):
+        if not 0.0 <= stamp_s <= most_s:
+            raise InputError(
+                f"{str(path)!r} has a message stamped {stamp_s:.3f} s, expected simulated time: "
+                f"from 0 on, and {_MOST_WINDOWS} windows at most, {most_s:g} s"
+            )
+
+
+def _begin_ns(records: RunRecords) -> int:
+    """Return the least stamp."""
+    kinds = (records.odometry, records.connectivity, records.tasks, records.strategies)
+    firsts = [own[0].stamp_ns for own in kinds if own]
+    return min(firsts, default=0)

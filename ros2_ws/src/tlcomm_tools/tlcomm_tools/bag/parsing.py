@@ -35,6 +35,9 @@ DECODING_ERRORS: Final = (
     ValueError,
     RuntimeError,
     zstandard.ZstdError,
+    # A chunk that says it is larger than any memory.
+    MemoryError,
+    OverflowError,
 )
 _CHUNK = struct.Struct("<QQQI")
 

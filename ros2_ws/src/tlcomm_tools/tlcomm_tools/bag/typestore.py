@@ -52,5 +52,7 @@ def decoding(path: Path) -> Iterator[None]:
         yield
     except InputError:
         raise
+    except AttributeError as error:
+        raise InputError(f"{str(path)!r} has messages of another version: {error}") from error
     except Exception as error:
         raise InputError(f"{str(path)!r} holds a message that can't be decoded: {error}") from error

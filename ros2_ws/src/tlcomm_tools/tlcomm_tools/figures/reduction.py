@@ -298,11 +298,14 @@ def _thinned(samples: NDArray[np.float64]) -> NDArray[np.float64]:
     stretches = [(0, len(samples) - 1)]
     while stretches:
         first, last = stretches.pop()
+        if last - first <= 1:
+            # Of two at the same time, a jump, no third one is worse.
+            continue
         times_s, start, stop = samples[first : last + 1, 0], samples[first], samples[last]
         share = (times_s - start[0]) / max(stop[0] - start[0], 1e-12)
         straight_m = start[1:] + share[:, None] * (stop[1:] - start[1:])
         off_m = np.hypot(*(samples[first : last + 1, 1:] - straight_m).T)
-        worst = int(np.argmax(off_m))
+        worst = 1 + int(np.argmax(off_m[1:-1]))
         if off_m[worst] > _STRAIGHT_M:
             kept[first + worst] = True
             stretches += [(first, first + worst), (first + worst, last)]

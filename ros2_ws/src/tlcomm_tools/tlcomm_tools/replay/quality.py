@@ -50,7 +50,7 @@ def read_quality(profiles: str) -> Quality:
     """
     try:
         offered = [_read_one(profile) for profile in yaml.safe_load(profiles) or ()]
-    except (yaml.YAMLError, AttributeError, TypeError, ValueError) as error:
+    except (yaml.YAMLError, RecursionError, AttributeError, TypeError, ValueError) as error:
         raise InputError(f"offered_qos_profiles can't be read: {profiles[:60]!r}") from error
     if not offered:
         return Quality()

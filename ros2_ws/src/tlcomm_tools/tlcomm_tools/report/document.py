@@ -11,11 +11,12 @@ from typing import Any, Final, Protocol
 
 from tlcomm_core.method import Method
 from tlcomm_core.metrics.run import run_metrics
+from tlcomm_core.pace import Pace
 from tlcomm_core.protocol.messages import BestResponse
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import seconds
-from tlcomm_core.world.observation import Odometry
+from tlcomm_tools.audit.evidence import usable_parts
 from tlcomm_tools.audit.findings import audit_run
 from tlcomm_tools.bag.reader import RecordedRun
 from tlcomm_tools.figures import reduction
@@ -35,6 +36,7 @@ def report_document(
     recorded: RecordedRun,
     said: Iterable[BestResponse] = (),
     plans: Mapping[str, Plans] = NO_PLANS,
+    pace: Pace | None = None,
 ) -> dict[str, Any]:
     """Return what a page shows of a run; a number that isn't finite isn't available.
 
@@ -44,12 +46,16 @@ def report_document(
         recorded: what the bag holds.
         said: what agents told of their best responses.
         plans: the ways that agents had before them, as they were published.
+        pace: how simulated time went on; by default as the bag says.
 
     Cost: about 4 s for 100 rounds of 8 agents, half of it the audit.
     """
-    records, end_s = recorded.records, seconds(recorded.end_ns)
-    audit = audit_run(scenario, method, records, recorded.end_ns, recorded.damage, recorded.pace)
-    metrics = run_metrics(scenario, records, method, recorded.end_ns)
+    end_ns, end_s = recorded.end_ns, seconds(recorded.end_ns)
+    pace = recorded.pace if pace is None else pace
+    audit = audit_run(scenario, method, recorded.records, end_ns, recorded.damage, pace)
+    # What isn't usable the audit names.
+    records, _ = usable_parts(scenario, recorded.records)
+    metrics = run_metrics(scenario, records, method, end_ns)
     document = {
         "format": REPORT_FORMAT,
         "run": _run(scenario, method, recorded.notes, end_s),
@@ -91,11 +97,8 @@ def _ground(scenario: Scenario) -> dict[str, Any]:
 def _agents(
     scenario: Scenario, records: RunRecords, end_s: float, plans: Mapping[str, Plans]
 ) -> list[dict[str, Any]]:
-    placed = filter(_is_placed, records.odometry)
-    odometry, tasks = (
-        reduction.by_agent(scenario, placed),
-        reduction.by_agent(scenario, records.tasks),
-    )
+    odometry = reduction.by_agent(scenario, records.odometry)
+    tasks = reduction.by_agent(scenario, records.tasks)
     estimates = reduction.by_agent(scenario, records.estimates)
     return [
         {
@@ -111,10 +114,6 @@ def _agents(
         }
         for name, own in scenario.agents.items()
     ]
-
-
-def _is_placed(seen: Odometry) -> bool:
-    return math.isfinite(seen.pose.x_m) and math.isfinite(seen.pose.y_m)
 
 
 class _Model(Protocol):

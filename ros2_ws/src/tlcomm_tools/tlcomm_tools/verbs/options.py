@@ -209,7 +209,7 @@ def add_seed_argument(parser: argparse.ArgumentParser, of: str = "all that is ra
 
 
 def add_recorded_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the run or bag, the scenario, and the method."""
+    """Add the run or bag, and what it may not say of itself."""
     parser.add_argument(
         "run", type=Path, metavar="RUN_OR_BAG", help="a run's folder, a bag's folder or MCAP file"
     )
@@ -224,6 +224,12 @@ def add_recorded_arguments(parser: argparse.ArgumentParser) -> None:
         type=method,
         metavar="NAME",
         help=f"one of {', '.join(Method)} (default: as the bag says, else {Method.TEAM})",
+    )
+    parser.add_argument(
+        "--pace",
+        type=pace,
+        metavar="lockstep|FACTOR",
+        help="how simulated time went on (default: as the bag says)",
     )
 
 

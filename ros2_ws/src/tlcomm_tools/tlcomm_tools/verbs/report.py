@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Final
 
 from tlcomm_core.errors import InputError
-from tlcomm_tools.bag.origin import find_method, find_scenario
+from tlcomm_tools.bag.origin import find_method, find_pace, find_scenario
 from tlcomm_tools.bag.reader import read_run
 from tlcomm_tools.folder import replace_file
 from tlcomm_tools.report.document import report_document
@@ -39,8 +39,9 @@ def run(options: Namespace) -> Status:
     recorded = read_run(options.run)
     scenario = find_scenario(options.run, recorded, options.scenario)
     method = find_method(options.run, recorded, options.method)
+    pace = find_pace(options.run, recorded, options.pace)
     said, plans = read_best_responses(options.run), read_plans(options.run)
-    document = report_document(scenario, method, recorded, said, plans)
+    document = report_document(scenario, method, recorded, said, plans, pace)
     text = render_page(document)
     replace_file(options.out, text)
     verdict = document["audit"]["verdict"]
