@@ -1,11 +1,13 @@
 """A run with its live view: in a real browser, and with the view killed."""
 
+import json
 import os
 import queue
 import signal
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -18,6 +20,8 @@ from tlcomm_core.records import event_log
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate
+from tlcomm_tools.bag.reader import read_run
+from tlcomm_tools.report.document import report_document
 from tlcomm_tools.run import RunOptions, run_mission
 from tlcomm_tools.status import Status
 
@@ -86,12 +90,32 @@ def test_a_run_is_looked_on(tmp_path: Path) -> None:
         assert browser.evaluate("view.time") == start_s
         report = running.result(LIMIT_S)
         assert browser.text("#verdict") == "verdict: ok"
-        assert browser.evaluate("ROUNDS.filter((own) => own.started_s !== null).length") == ROUNDS
+        known = browser.evaluate("DATA")
         assert browser.complaints() == []
     assert report.status is Status.FINE, report
     assert report.folder.events.read_text("utf-8") == expected_events()
+    require_same(known, report_document(SCENARIO, Method.TEAM, read_run(out)))
     assert list(views(out)) == []
     assert told.empty()
+
+
+def ended_spans(agent: dict[str, Any]) -> list[tuple[Any, ...]]:
+    """Return what an agent did, but for what it did at the end."""
+    names = ("start_s", "end_s", "activity", "action")
+    return sorted(tuple(span[name] for name in names) for span in agent["spans"])[:-2]
+
+
+def require_same(known: dict[str, Any], expected: dict[str, Any]) -> None:
+    """Require that a page knows what a report knows of all that is said once."""
+    expected = json.loads(json.dumps(expected))
+    assert len(known["rounds"]) > ROUNDS
+    for mine, theirs in zip(known["rounds"], expected["rounds"], strict=True):
+        assert {**mine, "moves": None} == {**theirs, "moves": None}
+    for mine, theirs in zip(known["agents"], expected["agents"], strict=True):
+        assert mine["steps"] == theirs["steps"]
+        assert mine["satisfied_s"] == theirs["satisfied_s"]
+        assert ended_spans(mine) == ended_spans(theirs)
+    assert known["windows"] == expected["windows"]
 
 
 def test_a_view_that_is_killed_is_told_of(tmp_path: Path) -> None:
