@@ -26,12 +26,12 @@ from tlcomm_tools.run import RunOptions, run_mission
 from tlcomm_tools.status import Status
 
 SCENARIO = load_scenario(Path(__file__).parents[2] / "scenarios" / "corridor.yaml")
-ROUNDS = 12
+ROUNDS, FEW = 12, 4
 LIMIT_S = 120.0
 ADDRESS = "live view at "
 
 
-def options_of(out: Path) -> RunOptions:
+def options_of(out: Path, rounds: int = ROUNDS) -> RunOptions:
     """Return a run in lock step, looked on."""
     return RunOptions(
         scenario=SCENARIO,
@@ -39,16 +39,16 @@ def options_of(out: Path) -> RunOptions:
         solver=DEFAULT,
         seed=0,
         pace=parse_pace("lockstep"),
-        rounds=ROUNDS,
+        rounds=rounds,
         until_s=None,
         out=out,
         has_view=True,
     )
 
 
-def expected_events() -> str:
+def expected_events(rounds: int = ROUNDS) -> str:
     """Return the event log of the same run without processes, and so without a view."""
-    left = simulate(Mission(Site.from_scenario(SCENARIO), 0, ROUNDS, None))
+    left = simulate(Mission(Site.from_scenario(SCENARIO), 0, rounds, None))
     return "".join(f"{line}\n" for line in event_log(left.records))
 
 
@@ -118,8 +118,15 @@ def require_same(known: dict[str, Any], expected: dict[str, Any]) -> None:
     assert known["windows"] == expected["windows"]
 
 
-def test_a_view_that_is_killed_is_told_of(tmp_path: Path) -> None:
-    """The run goes on, and ends as it does without a view."""
+@pytest.mark.parametrize(
+    ("number", "last"),
+    [
+        (signal.SIGKILL, "the live view has ended, the run goes on"),
+        (signal.SIGSTOP, "live view at "),
+    ],
+)
+def test_a_view_may_die_or_hang(tmp_path: Path, number: signal.Signals, last: str) -> None:
+    """The run goes on, and ends as it does without a view; of its death the user is told."""
     out, told = tmp_path / "run", []
     struck = False
 
@@ -128,9 +135,10 @@ def test_a_view_that_is_killed_is_told_of(tmp_path: Path) -> None:
         if meetings_ended > 1 and not struck:
             struck = True
             (view,) = views(out)
-            os.kill(view, signal.SIGKILL)
+            os.kill(view, number)
 
-    report = run_mission(options_of(out), strike, told.append)
+    report = run_mission(options_of(out, FEW), strike, told.append)
     assert report.status is Status.FINE, report
-    assert report.folder.events.read_text("utf-8") == expected_events()
-    assert told[-1].startswith("the live view has ended, the run goes on")
+    assert report.folder.events.read_text("utf-8") == expected_events(FEW)
+    assert list(views(out)) == []
+    assert told[-1].startswith(last)
