@@ -8,13 +8,16 @@ import pytest
 
 from support.browser import Browser, why_missing
 from support.command import run
-from support.hand_made_run import hand_made_records, task, write_bag
+from support.hand_made_run import hand_made_records, hand_made_scenario, task, write_bag
+from support.planned_bag import write_planned_bag
 from tlcomm_core.agent.actions import TaskEventKind
+from tlcomm_core.method import Method
 from tlcomm_core.records import RunRecords
 from tlcomm_tools.bag.origin import find_scenario
 from tlcomm_tools.bag.reader import read_run
 from tlcomm_tools.report.document import report_document
 from tlcomm_tools.report.page import render_page
+from tlcomm_tools.report.plans import read_plans
 
 pytestmark = pytest.mark.skipif(bool(why_missing()), reason=why_missing() or "there is a browser")
 
@@ -99,6 +102,38 @@ def test_a_click_tells_more(tmp_path: Path, browser: Browser) -> None:
     assert browser.text("#clock") == "20.0 s of 25.0 s"
     assert browser.text("#now") == "Window 2 · meeting 2 is on"
     assert browser.evaluate("document.querySelectorAll('#costs .bars .point').length") == 4
+    assert browser.complaints() == []
+
+
+def test_a_chosen_agent_shows_its_way_ahead(tmp_path: Path, browser: Browser) -> None:
+    """From where it is to its next meeting, and less of it the further it has come."""
+    path = write_planned_bag(tmp_path / "bag")
+    recorded = read_run(path)
+    document = report_document(hand_made_scenario(), Method.TEAM, recorded, (), read_plans(path))
+    page = tmp_path / "page.html"
+    page.write_text(render_page(document), "utf-8")
+    open_page(browser, f"{page.as_uri()}#time=4&agent=east")
+    assert browser.evaluate("wayAhead(AGENTS[0], view.time)") == [[6.25, 0.25], [3.75, 0.25]]
+    assert browser.evaluate("wayAhead(AGENTS[0], 5.5)") == [[3.75, 0.25]]
+    assert browser.evaluate("wayAhead(AGENTS[0], 11)") == []
+    assert browser.complaints() == []
+
+
+def test_charts_show_the_map_as_it_was(tmp_path: Path, browser: Browser) -> None:
+    """Where they met is drawn on the map at the time, and the schedule tells when that changes."""
+    write_bag(tmp_path / "bag", hand_made_records())
+    document = report_document(
+        hand_made_scenario(), Method.TEAM, read_run(tmp_path / "bag"), (), {}
+    )
+    document["ground"]["changes"] = [{"at_s": 12.0, "obstacles_m": [[0.0, 0.5, 1.0, 1.0]]}]
+    page = tmp_path / "page.html"
+    page.write_text(render_page(document), "utf-8")
+    boxes = "byId('places').layout.shapes.filter((own) => own.type === 'rect').length"
+    open_page(browser, f"{page.as_uri()}#time=11")
+    assert browser.evaluate(boxes) == 0
+    assert "the map changes" in browser.text("#schedule")
+    browser.press("body", RIGHT)
+    assert browser.evaluate(boxes) == 1
     assert browser.complaints() == []
 
 

@@ -4,18 +4,20 @@ import numpy as np
 import pytest
 
 from support.changing_hall import changing_hall
+from tlcomm_core.agent.radio import Radio
 from tlcomm_core.method import Method
 from tlcomm_core.mission import Mission
 from tlcomm_core.pace import Pace
 from tlcomm_core.records import RunRecords
+from tlcomm_core.scenario import model
 from tlcomm_core.scenario.generator import random_scenario
-from tlcomm_core.scenario.model import Radio, Scenario
+from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate
 from tlcomm_tools.audit.evidence import Evidence
 from tlcomm_tools.audit.hearing import audit_hearing, unheard
 
-BAD = Radio(loss=0.1, loss_at_range=0.4, jitter_s=0.05, duplication=0.2, bandwidth_bps=2e5)
+BAD = model.Radio(loss=0.1, loss_at_range=0.4, jitter_s=0.05, duplication=0.2, bandwidth_bps=2e5)
 LOCK_STEP = Pace(None)
 TALKING = (Method.TEAM, Method.STATIC, Method.PAIRWISE, Method.ALL_TIME)
 WINDOWS = 2
@@ -54,3 +56,15 @@ def test_with_less_range_or_more_latency_some_could_not() -> None:
     for changed in ({"range_m": 0.5 * links.range_m}, {"hop_latency_s": 0.05}):
         other = crowd.model_copy(update={"communication": links.model_copy(update=changed)})
         assert list(audit_hearing(Evidence.gather(other, records, end_s), LOCK_STEP))
+
+
+def test_a_radio_that_lets_everything_through_is_found_out(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Agents then hear, and act upon, what was said out of range: the audit tells."""
+    monkeypatch.setattr(Radio, "_distance_m", lambda *_: 0.5)
+    crowd = random_scenario(np.random.default_rng(1), agents=4)
+    records, end_s = left(crowd, Method.PAIRWISE)
+    found = list(audit_hearing(Evidence.gather(crowd, records, end_s), LOCK_STEP))
+    assert found
+    assert all(line.rpartition("away, ")[2].startswith("out of range") for line in found)

@@ -75,18 +75,26 @@ class InProcessTeam:
     def run(self) -> None:
         """Run until the sim leaves, or nothing is under way any more."""
         self.perform(self.conductor.begin(0))
-        while waiting := [
+        while self.deliver_one():
+            pass
+
+    def deliver_one(self) -> bool:
+        """Bring a command or an answer to the conductor; tell whether one was under way."""
+        waiting = [
             (queues, name)
             for queues in (self.commands, self.answers)
             for name, queue in queues.items()
             if queue
-        ]:
-            queues, name = self.rng.choice(waiting)
-            if queues is self.commands:
-                command = self.commands[name].popleft()
-                self.perform(self.conductor.take_command(name, *command, wall_ns=0))
-            else:
-                self.perform(self.conductor.take_answer(self.answers[name].popleft()))
+        ]
+        if not waiting:
+            return False
+        queues, name = self.rng.choice(waiting)
+        if queues is self.commands:
+            command = self.commands[name].popleft()
+            self.perform(self.conductor.take_command(name, *command, wall_ns=0))
+        else:
+            self.perform(self.conductor.take_answer(self.answers[name].popleft()))
+        return True
 
     def perform(self, outputs: Sequence[Output]) -> None:
         """Do what the conductor asks for."""

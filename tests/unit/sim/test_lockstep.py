@@ -18,7 +18,7 @@ from tlcomm_core.world.lockstep import LockStep
 from tlcomm_core.world.observation import Occupancy
 from tlcomm_sim.conductor import RECORDER
 from tlcomm_sim.lockstep import LockStepConductor
-from tlcomm_sim.outputs import Answer, Leave, Show, ShowClock, TickAgent, TickRecorder
+from tlcomm_sim.outputs import Answer, Leave, Show, ShowClock, Tick, TickAgent, TickRecorder
 
 CORRIDOR = Path(__file__).parents[3] / "scenarios" / "corridor.yaml"
 
@@ -45,6 +45,11 @@ def team_of(
     lockstep = LockStep(create_world(site, 0), agents, latency_ns, mission.stop)
     conductor = LockStepConductor(lockstep, agents, has_recorder=has_recorder)
     return InProcessTeam(site, conductor, random.Random(seed))  # noqa: S311 (no secrets)
+
+
+def time_of(output: Show | ShowClock) -> int:
+    """Return the time of what the sim shows."""
+    return output.time_ns if isinstance(output, ShowClock) else output.observation.stamp_ns
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -118,6 +123,28 @@ def test_clock_is_shown_every_tenth_of_a_second(site: Site) -> None:
             shown_ns = output.time_ns
         elif isinstance(output, Show):
             assert 0 <= output.observation.stamp_ns - shown_ns < 100_000_000
+
+
+def test_a_slow_run_ticks_the_recorder_by_wall_time(site: Site) -> None:
+    """In the midst of a step the recorder is told of what was published before it, and once."""
+    team = team_of(site)
+    wall_ns = 0
+    team.perform(team.conductor.begin(wall_ns))
+    ticks: list[Tick] = []
+    while len(ticks) < 20:
+        wall_ns += 10**9
+        shown = [own for own in team.outputs if isinstance(own, Show | ShowClock)]
+        for output in team.conductor.pass_time(wall_ns):
+            assert isinstance(output, TickRecorder)
+            assert team.conductor.pass_time(wall_ns + 10**9) == []
+            ticks.append(output.tick)
+            told = ticks[-1].odometry_count + ticks[-1].connectivity_count
+            told += ticks[-1].clock_count + ticks[-1].map_count
+            assert told == sum(time_of(own) <= ticks[-1].time_ns for own in shown)
+            answer = Answer(RECORDER, output.tick.sequence, True, None, 0, 0, 0, 0)
+            team.conductor.take_answer(answer)
+        team.deliver_one()
+    assert [own.time_ns for own in ticks] == sorted({own.time_ns for own in ticks})
 
 
 def test_silent_recorder_is_waited_for(site: Site) -> None:

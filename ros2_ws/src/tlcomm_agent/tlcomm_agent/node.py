@@ -146,10 +146,9 @@ class AgentNode(Node):
         return self.declare_parameter(name, PARAMETERS[name], descriptor).value
 
     def _create_publishers(self) -> None:
-        create = self.create_publisher
-        self._answer_pub = create(msg.TickReply, "/tick_reply", _DEPTH)
+        self._answer_pub = self.create_publisher(msg.TickReply, "/tick_reply", _DEPTH)
         self._pubs = {
-            topic: create(kind, topic, _HELD if topic == "team_strategy" else _DEPTH)
+            topic: self.create_publisher(kind, topic, _HELD if topic == "team_strategy" else _DEPTH)
             for topic, kind in {**wire.TYPES, **self._team_types}.items()
         }
 
@@ -177,9 +176,14 @@ class AgentNode(Node):
     def _create_occasions(self) -> None:
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._ready_timer = self.create_timer(_READY_PERIOD_S, self._say_ready, clock=self._steady)
-        self._news = self.create_guard_condition(self._step_freely)
         if not self._is_lockstep:
+            self._news = self.create_guard_condition(self._step_freely)
             self.create_timer(CONTROL_PERIOD_S, self._step_freely)
+
+    @property
+    def urgent(self) -> object:
+        """What alone need wake the agent up now: in lock step the tick, unless that is there."""
+        return self._tick_sub if self._is_lockstep and self._tick is None else None
 
     def _subscribe_team(self, other: str, topic: str, kind: type) -> Any:  # noqa: ANN401 (opaque)
         def take(data: bytes) -> None:
@@ -343,8 +347,7 @@ class AgentNode(Node):
         self._pubs[topic].publish(message)
 
     def _answer(self, sequence: int) -> None:
-        member, published = self._member, self._published
-        answer = wire.encode_answer(member, sequence, published, self._team_types)
+        answer = wire.encode_answer(self._member, sequence, self._published, self._team_types)
         answer.ready = self._is_ready
         self._answer_pub.publish(answer)
 
@@ -359,10 +362,8 @@ class AgentNode(Node):
         """Whether every topic has found those whom it needs."""
         others, recorders = len(self.config.others), int(self.config.has_recorder)
         hearers = {"cmd_vel": 1, **dict.fromkeys(self._team_types, others)}
-        publishers = [
-            (self._answer_pub, 1),
-            *((self._pubs[t], hearers.get(t, 0) + recorders) for t in self._pubs),
-        ]
+        publishers = [(self._answer_pub, 1)]
+        publishers += [(self._pubs[t], hearers.get(t, 0) + recorders) for t in self._pubs]
         return all(p.get_subscription_count() >= least for p, least in publishers) and all(
             subscription.get_publisher_count() for subscription in self._own_subscriptions
         )

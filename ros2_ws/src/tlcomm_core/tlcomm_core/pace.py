@@ -1,15 +1,17 @@
 """How simulated time goes on.
 
 ``Pace``        in lock step, or freely at a factor of real time
+``LOCK_STEP``   the former
 ``parse_pace``  from what a user writes
 """
 
 import math
 from dataclasses import dataclass
+from typing import Final
 
 from tlcomm_core.errors import InputError
 
-__all__ = ["Pace", "parse_pace"]
+__all__ = ["LOCK_STEP", "Pace", "parse_pace"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +34,10 @@ class Pace:
         return "lockstep" if self.factor is None else repr(self.factor)
 
 
+LOCK_STEP: Final = Pace(None)
+"""Time waits for everybody."""
+
+
 def parse_pace(text: str) -> Pace:
     """Read ``lockstep`` or a factor > 0; 1.0 is real time.
 
@@ -39,7 +45,7 @@ def parse_pace(text: str) -> Pace:
         InputError: it is neither.
     """
     if text == "lockstep":
-        return Pace(None)
+        return LOCK_STEP
     try:
         factor = float(text)
     except ValueError:

@@ -2,6 +2,7 @@
 
 ``TaskRecord``      an agent's ``TaskEvent`` with its time
 ``StrategyRecord``  a team strategy that an agent holds as agreed
+``OfferRecord``     the plan that an agent laid open to agree on a round
 ``EstimateRecord``  what an agent takes the field to be
 ``SaidRecord``      that an agent said something
 ``HeardRecord``     that an agent's radio let it through to another
@@ -15,12 +16,14 @@ from dataclasses import asdict, dataclass, field
 
 from tlcomm_core.agent.actions import TaskEvent
 from tlcomm_core.agent.timing import RoundTiming
+from tlcomm_core.game.offer import MemberOffer
 from tlcomm_core.game.strategy import TeamStrategy
 from tlcomm_core.world.observation import Connectivity, Odometry
 
 __all__ = [
     "EstimateRecord",
     "HeardRecord",
+    "OfferRecord",
     "RunRecords",
     "SaidRecord",
     "StrategyRecord",
@@ -45,6 +48,16 @@ class StrategyRecord:
     stamp_ns: int
     agent: str
     strategy: TeamStrategy
+
+
+@dataclass(frozen=True, slots=True)
+class OfferRecord:
+    """The plan that an agent laid open to agree on a round, as it said it first."""
+
+    stamp_ns: int
+    agent: str
+    round: int
+    offer: MemberOffer
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +111,7 @@ class RunRecords:
 
     Attributes:
         estimates: whenever one has changed; of an agent without any estimate yet there is none.
+        offers: each agent's own, once for each round that it was said for, unless it has changed.
         messages_sent: per agent, how many messages it said.
         bytes_sent: per agent, how long these were together, each as it is serialised.
         messages_undelivered: per agent, by reason, how many of the others' its radio didn't let
@@ -114,6 +128,7 @@ class RunRecords:
     odometry: list[Odometry] = field(default_factory=list)
     connectivity: list[Connectivity] = field(default_factory=list)
     estimates: list[EstimateRecord] = field(default_factory=list)
+    offers: list[OfferRecord] = field(default_factory=list)
     messages_sent: dict[str, int] = field(default_factory=dict)
     bytes_sent: dict[str, int] = field(default_factory=dict)
     messages_undelivered: dict[str, Mapping[str, int]] = field(default_factory=dict)

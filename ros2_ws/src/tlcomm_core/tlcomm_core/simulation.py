@@ -24,12 +24,13 @@ from tlcomm_core.agent.controller import Pacing
 from tlcomm_core.agent.member import Member, create
 from tlcomm_core.agent.timing import TimedMember
 from tlcomm_core.mission import Mission, create_world
-from tlcomm_core.protocol.messages import TeamMessage
+from tlcomm_core.protocol.messages import PlanOffer, TeamMessage
 from tlcomm_core.protocol.size import size_bytes
 from tlcomm_core.protocol.topics import topic_of
 from tlcomm_core.records import (
     EstimateRecord,
     HeardRecord,
+    OfferRecord,
     RunRecords,
     SaidRecord,
     StrategyRecord,
@@ -96,6 +97,7 @@ class _Harness:
 
     def __init__(self, mission: Mission, on_message: Callable[[TeamMessage], None] | None) -> None:
         self._on_message = on_message
+        self._offered: set[object] = set()
         scenario = mission.site.scenario
         silent = dict.fromkeys(scenario.agents, 0)
         self.left = Simulated(RunRecords(messages_sent=silent, bytes_sent=silent.copy()))
@@ -198,9 +200,20 @@ class _Harness:
         self.left.records.said.append(SaidRecord(now_ns, sender, topic_of(message)))
         if self._on_message is not None:
             self._on_message(message)
+        if isinstance(message, PlanOffer):
+            self._note_offer(message, now_ns)
         for name, member in self._members.items():
             if name != sender:
                 member.receive(message, now_ns)
+
+    def _note_offer(self, message: PlanOffer, now_ns: int) -> None:
+        """Record the sender's own offer when it is new."""
+        for offer in message.offers:
+            ticket = (message.round, offer)
+            if offer.agent == message.sender and ticket not in self._offered:
+                self._offered.add(ticket)
+                record = OfferRecord(now_ns, offer.agent, message.round, offer)
+                self.left.records.offers.append(record)
 
     def _show_connectivity(self, connectivity: Connectivity) -> None:
         names = tuple(self._members)

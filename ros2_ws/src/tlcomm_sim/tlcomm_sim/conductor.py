@@ -98,10 +98,19 @@ class Conductor(ABC):
         del self._awaited[answer.name]
         return True
 
-    def _tick_recorder(self, *, stop: bool = False) -> Output:
+    def _tick_recorder(
+        self, time_ns: int, *, without: Iterable[Output] = (), stop: bool = False
+    ) -> Output:
+        """Tell the recorder how much has been published up to a time.
+
+        Args:
+            time_ns: the time.
+            without: what has been published already, and is later.
+            stop: whether this is the end.
+        """
         sequence = self._next_sequence()
         self._awaited[RECORDER] = sequence
-        return TickRecorder(self._ledger.recorder_tick(sequence, self.time_ns, stop=stop))
+        return TickRecorder(self._ledger.recorder_tick(sequence, time_ns, without, stop=stop))
 
     def _end(self, arrived: Sequence[int]) -> list[Output]:
         """Tell every agent that the run is over."""
@@ -124,5 +133,5 @@ class Conductor(ABC):
             return []
         if self._has_recorder and not self._is_closing:
             self._is_closing = True
-            return [self._tick_recorder(stop=True)]
+            return [self._tick_recorder(self.time_ns, stop=True)]
         return [Leave()]

@@ -3,7 +3,7 @@
 ``Ledger``  counts since the start, of messages on recorded topics
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from tlcomm_core.world.observation import Connectivity, Occupancy, Odometry, Reading
 from tlcomm_sim.outputs import Output, Show, ShowClock, Tick
@@ -72,16 +72,28 @@ class Ledger:
             stop=stop,
         )
 
-    def recorder_tick(self, sequence: int, time_ns: int, *, stop: bool = False) -> Tick:
-        """Return a tick for the recorder."""
+    def recorder_tick(
+        self, sequence: int, time_ns: int, without: Iterable[Output] = (), *, stop: bool = False
+    ) -> Tick:
+        """Return a tick for the recorder.
+
+        Args:
+            sequence: its number.
+            time_ns: the time up to which it counts.
+            without: publications of the sim that have been noted already, and are later.
+            stop: whether the run is over.
+        """
+        later = Ledger(tuple(self._by_agents))
+        for output in without:
+            later.note(output)
         return Tick(
             sequence=sequence,
             time_ns=time_ns,
-            odometry_count=sum(self._odometry.values()),
-            connectivity_count=self._connectivity,
-            clock_count=self._clock,
-            map_count=self._maps,
-            reading_count=sum(self._readings.values()),
+            odometry_count=sum(self._odometry.values()) - sum(later._odometry.values()),
+            connectivity_count=self._connectivity - later._connectivity,
+            clock_count=self._clock - later._clock,
+            map_count=self._maps - later._maps,
+            reading_count=sum(self._readings.values()) - sum(later._readings.values()),
             agent_counts=tuple(self._by_agents.values()),
             stop=stop,
         )

@@ -18,6 +18,8 @@ _CLOCK_NS: Final = 100_000_000
 # only when the next lot is full too: so at most two lots are under way, fewer messages than one
 # publisher's history holds.
 _LOT: Final = 300
+# A slow run ticks it before that, by wall time: what it hasn't been ticked for isn't in the bag.
+_RECORDER_WAITS_NS: Final = 200_000_000
 
 # After so many requests the shell has its turn, even if nobody needs to be waited for.
 _BATCH: Final = 1000
@@ -41,6 +43,9 @@ class LockStepConductor(Conductor):
         self._last_command = dict.fromkeys(self._agents, (0.0, 0.0))
         self._clock_ns = 0
         self._ticked_total = 0
+        self._ticked_wall_ns = 0
+        self._settled_ns = 0
+        self._later: list[Output] = []
 
     @property
     def time_ns(self) -> int:
@@ -60,12 +65,12 @@ class LockStepConductor(Conductor):
 
     def begin(self, wall_ns: int) -> list[Output]:
         """Take the first step; everybody is ready."""
-        return self.pass_time(wall_ns)
+        self._ticked_wall_ns = wall_ns
+        return self._proceed()
 
     def pass_time(self, wall_ns: int) -> list[Output]:
-        """Go on where a batch ended; wall time itself means nothing here."""
-        del wall_ns
-        return self._proceed()
+        """Go on where a batch ended; wall time itself means something to the recorder only."""
+        return [*self._tick_recorder_in_time(wall_ns), *self._proceed()]
 
     def take_command(
         self, agent: str, linear_mps: float, angular_radps: float, wall_ns: int
@@ -98,19 +103,42 @@ class LockStepConductor(Conductor):
     def _is_lot_full(self) -> bool:
         return self._has_recorder and self._ledger.total - self._ticked_total >= _LOT
 
+    def _tick_recorder_in_time(self, wall_ns: int) -> list[Output]:
+        """While agents take their time, tick the recorder of what was published before this step.
+
+        Of the second step at one time nothing is said: what was published in the first is of that
+        time, too.
+        """
+        published = self._ledger.total - len(self._later)
+        is_due = (
+            self._has_recorder
+            and RECORDER not in self._awaited
+            and self._step is not None
+            and self._settled_ns < self._step.time_ns
+            and published > self._ticked_total
+            and wall_ns - self._ticked_wall_ns >= _RECORDER_WAITS_NS
+        )
+        if not is_due:
+            return []
+        self._ticked_wall_ns = wall_ns
+        self._ticked_total = published
+        return [self._tick_recorder(self._settled_ns, without=self._later)]
+
     def _advance(self) -> list[Output]:
         """Go to the next instant, or to the end."""
         outputs: list[Output] = []
-        if self._is_lot_full():
-            self._ticked_total = self._ledger.total
-            outputs.append(self._tick_recorder())
+        self._settled_ns = self.time_ns
         step = self._lockstep.next_step()
         if step is None:
-            return outputs + self._end(self._arrived)
+            return self._end(self._arrived)
+        if self._is_lot_full() and self._settled_ns < step.time_ns:
+            self._ticked_total = self._ledger.total
+            outputs.append(self._tick_recorder(self._settled_ns))
         self._step = step
         self._arrived = step.arrived
-        outputs += self._noted(self._clocks_until(step.time_ns))
-        outputs += self._noted(Show(observation) for observation in step.observations)
+        self._later = self._noted(self._clocks_until(step.time_ns))
+        self._later += self._noted(Show(observation) for observation in step.observations)
+        outputs += self._later
         outputs += [self._tick(agent, step) for agent in step.ticked]
         return outputs
 

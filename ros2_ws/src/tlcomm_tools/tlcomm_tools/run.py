@@ -3,6 +3,7 @@
 ``RunOptions``   what is run
 ``RunReport``    how it went
 ``run_mission``  runs it
+``launch``       its processes alone, also without a recorder
 """
 
 import contextlib
@@ -23,6 +24,7 @@ from tlcomm_core.result import RunFacts, result_document
 from tlcomm_core.scenario.loader import dumps
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import seconds
+from tlcomm_tools.bag.compression import DEFAULT, Compression
 from tlcomm_tools.bag.reader import RecordedRun, read_run
 from tlcomm_tools.folder import RunFolder
 from tlcomm_tools.limit import time_limit_s
@@ -39,7 +41,7 @@ from tlcomm_tools.runtime.supervisor import (
 )
 from tlcomm_tools.status import Status
 
-__all__ = ["RunOptions", "RunReport", "run_mission"]
+__all__ = ["RunOptions", "RunReport", "launch", "run_mission"]
 
 _PROCESS = ("-P", "-m", "tlcomm_tools.runtime.process")
 _VIEW = ("-P", "-m", "tlcomm_tools.runtime.view")
@@ -59,6 +61,7 @@ class RunOptions:
         until_s: the run ends at this simulated time, or ``None``.
         out: folder to write to, or ``None`` for a new one.
         has_view: whether a browser can look on.
+        compression: of the bag.
     """
 
     scenario: Scenario
@@ -70,6 +73,7 @@ class RunOptions:
     until_s: float | None
     out: Path | None
     has_view: bool = False
+    compression: Compression = DEFAULT
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,11 +165,39 @@ def _view(
     return Onlooker(command, environment, folder.logs / "view.log", tell)
 
 
-def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
+def launch(
+    options: RunOptions,
+    folder: RunFolder,
+    on_note: Callable[[str, Note], None],
+    *,
+    is_recorded: bool,
+) -> RunOutcome:
+    """Run a scenario's processes to their end, with no results written.
+
+    Args:
+        options: what to run.
+        folder: where scenario, logs and bag go.
+        on_note: called with a process's name and each of its notes.
+        is_recorded: whether there is a recorder; without one no bag is left.
+
+    Raises:
+        InputError: the processes are too many for this machine.
+    """
+    folder.write_scenario(dumps(options.scenario))
+    folder.logs.mkdir()
+    specs = _specs(options, folder, is_recorded=is_recorded)
+    with claim_domain() as domain:
+        environment = process_environment(os.environ, domain, folder.logs.absolute(), len(specs))
+        return run_processes(specs, environment, on_note)
+
+
+def _specs(
+    options: RunOptions, folder: RunFolder, *, is_recorded: bool = True
+) -> list[ProcessSpec]:
     """Return the recorder, the sim and the agents, in the order in which they start."""
     scenario = ("--scenario", str(folder.scenario.absolute()))
     world = (*scenario, "--seed", str(options.seed), "--pace", str(options.pace))
-    common = (*world, "--recorder")
+    common = (*world, "--recorder") if is_recorded else world
     solver, method = options.method.solver(options.solver).name, options.method.value
     coordination = ("--solver", solver, "--method", method)
     limit_s = time_limit_s(options.scenario, options.rounds, options.until_s, options.method)
@@ -177,9 +209,10 @@ def _specs(options: RunOptions, folder: RunFolder) -> list[ProcessSpec]:
         command = (sys.executable, *_PROCESS, *arguments)
         return ProcessSpec(name, command, folder.logs / f"{name}.log", stop_last)
 
-    bag = ("--bag", str(folder.bag.absolute()))
+    bag = ("--bag", str(folder.bag.absolute()), "--compression", options.compression.value)
+    recorder = spec("recorder", "recorder", *bag, *world, *coordination, stop_last=True)
     return [
-        spec("recorder", "recorder", *bag, *world, *coordination, stop_last=True),
+        *([recorder] if is_recorded else []),
         spec("sim", "sim", *common, *end),
         *(
             spec(name, "agent", "--name", name, *coordination, *common)

@@ -35,9 +35,11 @@ def test_a_good_run_has_no_violations() -> None:
     assert found.violations == ()
     assert set(found.document()["checks"]) == {
         *("bag", "records", "method", "motion", "clearance", "actions"),
-        *("tasks", "strategies", "meetings", "hearing"),
+        *("tasks", "strategies", "meetings", "equilibria", "hearing"),
     }
-    assert found.document()["unavailable"] == {}
+    # Nobody made these agents' plans.
+    assert found.unavailable == {"equilibria": ("what agents planned isn't recorded",)}
+    assert found.document()["checks"]["equilibria"] is None
     assert [own.satisfied for own in found.windows] == [True, True, True]
     # They are half a metre apart at a meeting and leave at 1 m/s each: a quarter of a second more.
     # East comes last and is in range half a second before its arrival at 8 s and 18 s.

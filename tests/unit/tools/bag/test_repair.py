@@ -11,6 +11,7 @@ from rosbags.highlevel import AnyReader
 
 from support.hand_made_run import AGENTS, SHARE
 from tlcomm_core.errors import InputError
+from tlcomm_tools.bag.compression import Compression
 from tlcomm_tools.bag.container import read_container
 from tlcomm_tools.bag.definitions import load_typestore, read_definition
 from tlcomm_tools.bag.repair import Repaired, inspect, repair
@@ -22,14 +23,15 @@ CUTS = 40
 DATA = bytes(12)
 
 
-@pytest.fixture(scope="module")
-def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+@pytest.fixture(scope="module", params=Compression)
+def whole(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> bytes:
     """Return a bag's file of ten chunks with five messages each, of two topics."""
     store = load_typestore(SHARE)
     topics = recorded_topics(AGENTS)
     definitions = {topic.type: read_definition(store, topic.type) for topic in topics}
     folder = tmp_path_factory.mktemp("whole") / "bag"
-    with BagWriter(folder, topics, definitions, {"scenario": "x"}) as writer:
+    notes = {"scenario": "x"}
+    with BagWriter(folder, topics, definitions, notes, compression=request.param) as writer:
         for number in range(50):
             writer.write(number % 2, number, DATA)
             if number % 5 == 4:

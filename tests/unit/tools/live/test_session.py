@@ -14,6 +14,7 @@ from support.hand_made_run import (
     write_bag,
 )
 from support.live_page import grown
+from support.planned_bag import write_planned_bag
 from tlcomm_core.method import Method
 from tlcomm_core.records import RunRecords
 from tlcomm_core.units import nanoseconds
@@ -21,6 +22,7 @@ from tlcomm_tools.bag.definitions import load_typestore
 from tlcomm_tools.live.document import LiveDocument
 from tlcomm_tools.live.intake import Heard, read_stamp, shown_topics
 from tlcomm_tools.live.session import Session
+from tlcomm_tools.report.plans import read_plans
 
 STORE = load_typestore(SHARE)
 TOPICS = shown_topics(hand_made_scenario())
@@ -72,7 +74,7 @@ def earlier(records: RunRecords, until_s: float) -> RunRecords:
 def test_what_was_missed_comes_from_the_bag(tmp_path: Path) -> None:
     """Some of it was heard as well, some not yet recorded; the page has each once, in order."""
     heard = heard_of(hand_made_records())
-    late = [own for own in heard if read_stamp(own[1]) >= nanoseconds(9.0)]
+    late = [own for own in heard if read_stamp(own[1]) >= nanoseconds(5.0)]
     write_bag(tmp_path / "bag", earlier(hand_made_records(), 13.0))
     view = View(tmp_path / "bag")
     early = [own for own in late if read_stamp(own[1]) <= nanoseconds(10.0)]
@@ -86,13 +88,14 @@ def test_what_was_missed_comes_from_the_bag(tmp_path: Path) -> None:
     assert view.end() == whole_page(tmp_path)
 
 
-@pytest.mark.parametrize("until_s", [None, 0.5, 25.0])
+@pytest.mark.parametrize("until_s", [None, 0.5, 20.5])
 def test_the_bag_is_waited_for(tmp_path: Path, until_s: float | None) -> None:
-    """As long as it doesn't go further than what was missed, or isn't there, nothing is shown."""
+    """As long as it doesn't go well beyond what was missed, or isn't there, nothing is shown."""
     if until_s is not None:
         write_bag(tmp_path / "bag", earlier(hand_made_records(), until_s))
     view = View(tmp_path / "bag")
-    view.turn(heard_of(hand_made_records())[-1:])
+    heard = heard_of(hand_made_records())
+    view.turn([next(own for own in heard if read_stamp(own[1]) == nanoseconds(20.0))])
     for _ in range(6):
         view.turn([])
     assert view.page["run"]["end_s"] == 0.0
@@ -106,6 +109,16 @@ def test_a_run_that_is_over_at_once_is_read(tmp_path: Path) -> None:
     page = view.end()
     assert page == whole_page(tmp_path)
     assert page["run"]["verdict"] == "ok"
+
+
+def test_ways_ahead_are_those_of_a_report(tmp_path: Path) -> None:
+    """What viewers are shown of plans, the page shows too."""
+    path = write_planned_bag(tmp_path / "bag")
+    view = View(tmp_path / "bag")
+    east, west = view.end()["agents"]
+    own = json.loads(json.dumps(read_plans(path)["east"].document()))
+    assert {name: east[name] for name in own} == own
+    assert (len(east["ways"]), len(west["ways"])) == (1, 0)
 
 
 @pytest.mark.parametrize("data", [b"", b"\x00\x01\x00\x00", b"\x00\x01\x00\x00" + b"\xff" * 40])

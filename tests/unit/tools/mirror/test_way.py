@@ -1,8 +1,9 @@
 """Tests of ``tlcomm_tools.mirror.way`` and of the paths made from it."""
 
 import math
+from typing import Any
 
-from support.hand_made_run import hand_made_scenario
+from support.hand_made_run import SHARE, hand_made_scenario
 from tlcomm_core.agent.actions import TaskEvent, TaskEventKind
 from tlcomm_core.game.offer import MemberOffer, PlannedStop
 from tlcomm_core.game.strategy import Strategy, TeamStrategy
@@ -11,7 +12,8 @@ from tlcomm_core.method import Method
 from tlcomm_core.records import StrategyRecord, TaskRecord
 from tlcomm_core.units import nanoseconds
 from tlcomm_core.world.observation import Odometry
-from tlcomm_tools.mirror.paths import make_plan, make_trail
+from tlcomm_tools.bag.definitions import load_typestore
+from tlcomm_tools.mirror.paths import encode_plan, encode_trail
 from tlcomm_tools.mirror.picture import Picture
 from tlcomm_tools.mirror.way import Way
 
@@ -27,6 +29,11 @@ def agreed() -> Picture:
     east.held = StrategyRecord(0, "east", strategy)
     act(picture, 2.0, TaskEventKind.MEETING_ENDED)
     return picture
+
+
+def decoded(data: bytes) -> Any:  # noqa: ANN401 (made by the library)
+    """Return a path as a message."""
+    return load_typestore(SHARE).deserialize_cdr(data, "nav_msgs/msg/Path")
 
 
 def act(picture: Picture, time_s: float, kind: TaskEventKind, index: int = 0) -> None:
@@ -81,10 +88,10 @@ def test_a_plan_begins_where_the_agent_is() -> None:
     picture, way = agreed(), Way("east")
     ahead(picture, way, 2.0, 3.75)
     here = picture.agents["east"].odometry
-    path = make_plan(here, way.ahead(picture), nanoseconds(2.0))
+    path = decoded(encode_plan(here, way.ahead(picture), nanoseconds(2.0)))
     assert [own.pose.position.x for own in path.poses] == [3.75, 6.25, 3.75]
     assert [own.header.stamp.sec for own in path.poses] == [2, 5, 8]
-    assert make_plan(here, (), 0).poses == []
+    assert decoded(encode_plan(here, (), 0)).poses == []
 
 
 def test_a_trail_keeps_corners_and_forgets_what_is_long_ago() -> None:
@@ -93,7 +100,7 @@ def test_a_trail_keeps_corners_and_forgets_what_is_long_ago() -> None:
     for step in range(6):
         ahead(picture, way, 2.0 + 0.5 * step, 3.75 + 0.5 * step)
     east = picture.agents["east"]
-    path = make_trail(east.trail, nanoseconds(5.0))
+    path = decoded(encode_trail(east.trail, nanoseconds(5.0)))
     assert [own.pose.position.x for own in path.poses] == [3.75, 6.25]
     assert [own.header.stamp.sec for own in path.poses] == [2, 4]
     turned = Pose(6.25, 0.75, math.pi / 2.0)

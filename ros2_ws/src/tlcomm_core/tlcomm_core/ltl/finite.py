@@ -56,6 +56,9 @@ class FiniteReading:
     def __init__(self, formula: Formula) -> None:
         """Begin with no letter; the formula counts as not yet satisfied."""
         self._claims = _claimed((formula, True), at_end=False)
+        # Words repeat letters, and claims with them.
+        self._letters: dict[frozenset[str], _Letter] = {}
+        self._steps: dict[tuple[_Claims, frozenset[str]], _Claims] = {}
 
     @property
     def is_satisfied(self) -> bool:
@@ -64,10 +67,13 @@ class FiniteReading:
 
     def read(self, letter: frozenset[str]) -> None:
         """Read one more letter, in which exactly some atoms are true."""
-        reading = _Letter(letter)
-        self._claims = _any(
-            _all(reading.after(claim.side) for claim in claims) for claims in self._claims
-        )
+        step = (self._claims, letter)
+        if step not in self._steps:
+            reading = self._letters.setdefault(letter, _Letter(letter))
+            self._steps[step] = _any(
+                _all(reading.after(claim.side) for claim in claims) for claims in self._claims
+            )
+        self._claims = self._steps[step]
 
 
 class _Letter:

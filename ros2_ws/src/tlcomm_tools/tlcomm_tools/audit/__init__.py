@@ -19,6 +19,7 @@
 ``strategies``  whether those who agree hold the same strategies
 ``plans``       whether their meetings are connected, in their windows and to be had in time
 ``meetings``    whether their places are as the scenario demands
+``equilibria``  whether anybody could have gained alone, by the plans that were laid open
 ``proximity``   whether two agents were in range and sight of each other at given times
 ``hearing``     whether agents heard only what was said, by somebody in range, and not before
 ``findings``    all of it as one document: ``audit_run`` is the way in

@@ -10,12 +10,13 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from tlcomm_core.method import Method
-from tlcomm_core.pace import Pace
+from tlcomm_core.pace import LOCK_STEP, Pace
 from tlcomm_core.records import RunRecords
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_tools.audit.actions import audit_actions
 from tlcomm_tools.audit.clearance import audit_clearance
 from tlcomm_tools.audit.conditions import audit_conditions
+from tlcomm_tools.audit.equilibria.finding import EquilibriumFinding, audit_equilibria
 from tlcomm_tools.audit.evidence import Evidence
 from tlcomm_tools.audit.guarantees.guarantee import Guarantee
 from tlcomm_tools.audit.guarantees.methods import audit_guarantees
@@ -32,8 +33,6 @@ __all__ = ["AUDIT_FORMAT", "Audit", "audit_run"]
 
 AUDIT_FORMAT: Final = "tlcomm-audit/1"
 
-_LOCK_STEP: Final = Pace(None)
-
 
 @dataclass(frozen=True, slots=True)
 class Audit:
@@ -48,6 +47,7 @@ class Audit:
         windows: each window's outcome for the whole team, whether or not that is promised.
         tasks: each agent's task.
         strategies: what agents hold.
+        equilibria: whether anybody could gain alone; ``None`` if the method leaves no choice.
         checks: by what was checked, what is wrong, a line each.
         unavailable: by what would have been checked, what the records don't tell, a line each.
     """
@@ -60,6 +60,7 @@ class Audit:
     windows: tuple[WindowFinding, ...]
     tasks: tuple[TaskFinding, ...]
     strategies: StrategyFinding
+    equilibria: EquilibriumFinding | None
     checks: Mapping[str, tuple[str, ...]]
     unavailable: Mapping[str, tuple[str, ...]]
 
@@ -92,6 +93,7 @@ class Audit:
                 for own in self.tasks
             },
             "strategies": {"rounds": self.strategies.rounds, "equal": self.strategies.equal},
+            "equilibria": self.equilibria and self.equilibria.document(),
             "checks": {
                 name: None if name in self.unavailable and not lines else list(lines)
                 for name, lines in self.checks.items()
@@ -107,7 +109,7 @@ def audit_run(
     records: RunRecords,
     end_ns: int,
     damage: str = "",
-    pace: Pace | None = _LOCK_STEP,
+    pace: Pace | None = LOCK_STEP,
 ) -> Audit:
     """Audit a run against its scenario, and against what its method promises.
 
@@ -125,6 +127,7 @@ def audit_run(
     guarantees = audit_guarantees(method, evidence)
     tasks = [audit_task(method, evidence, agent) for agent in evidence.agents]
     strategies = audit_strategies(method, evidence)
+    equilibria = audit_equilibria(method, evidence, pace)
     checks = {
         "bag": (f"the bag is damaged: {damage}",) if damage else (),
         "records": (*evidence.faults, *_silent(method, evidence)),
@@ -133,9 +136,13 @@ def audit_run(
         "tasks": tuple(line for own in tasks for line in own.violations),
         "strategies": strategies.violations,
         "meetings": tuple(_meetings(method, evidence)),
+        "equilibria": () if equilibria is None else equilibria.violations,
         "hearing": tuple(audit_hearing(evidence, pace)),
     }
-    unavailable = {"hearing": unheard(evidence, pace)}
+    unavailable = {
+        "equilibria": () if equilibria is None else equilibria.unavailable,
+        "hearing": unheard(evidence, pace),
+    }
     return Audit(
         scenario=scenario.name,
         method=method,
@@ -145,6 +152,7 @@ def audit_run(
         windows=tuple(evidence.windows),
         tasks=tuple(tasks),
         strategies=strategies,
+        equilibria=equilibria,
         checks=checks,
         unavailable={name: lines for name, lines in unavailable.items() if lines},
     )

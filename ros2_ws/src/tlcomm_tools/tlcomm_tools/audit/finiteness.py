@@ -9,7 +9,7 @@ from dataclasses import replace
 from itertools import filterfalse
 from typing import Final, Protocol, TypeVar
 
-from tlcomm_core.records import EstimateRecord, RunRecords, StrategyRecord
+from tlcomm_core.records import EstimateRecord, OfferRecord, RunRecords, StrategyRecord
 from tlcomm_core.world.observation import Odometry
 
 __all__ = ["keep_finite"]
@@ -38,8 +38,11 @@ def keep_finite(records: RunRecords) -> tuple[RunRecords, tuple[str, ...]]:
     odometry, odometry_lines = _parted(records.odometry, _of_odometry, "odometry")
     strategies, strategy_lines = _parted(records.strategies, _of_strategy, "strategy")
     estimates, estimate_lines = _parted(records.estimates, _of_estimate, "estimate")
-    kept = replace(records, odometry=odometry, strategies=strategies, estimates=estimates)
-    return kept, (*odometry_lines, *strategy_lines, *estimate_lines)
+    offers, offer_lines = _parted(records.offers, _of_offer, "offer")
+    kept = replace(
+        records, odometry=odometry, strategies=strategies, estimates=estimates, offers=offers
+    )
+    return kept, (*odometry_lines, *strategy_lines, *estimate_lines, *offer_lines)
 
 
 def _parted(
@@ -78,6 +81,14 @@ def _of_strategy(own: StrategyRecord) -> Iterator[float]:
     yield from (held.communication_s, held.potential_s, held.initial_potential_s)
     for one in held.strategies:
         yield from (one.x_m, one.y_m, one.arrival_s, one.extra_travel_s)
+
+
+def _of_offer(own: OfferRecord) -> Iterator[float]:
+    offer = own.offer
+    yield from (offer.arrival_s, offer.x_m, offer.y_m, offer.yaw_rad)
+    yield from (offer.linear_mps, offer.angular_radps)
+    for stop in offer.stops:
+        yield from (stop.x_m, stop.y_m, stop.yaw_rad, stop.finish_offset_s)
 
 
 def _of_estimate(own: EstimateRecord) -> Iterator[float]:

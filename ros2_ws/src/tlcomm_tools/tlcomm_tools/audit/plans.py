@@ -4,6 +4,7 @@
 """
 
 import math
+from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 from typing import Final
@@ -26,6 +27,7 @@ _BEGINNINGS: Final = (TaskEventKind.MEETING_REACHED, TaskEventKind.MEETING_START
 
 def audit_plans(evidence: Evidence) -> Iterator[str]:
     """Say which agreed meetings aren't connected, in their windows, or to be had at their cost."""
+    begins_ns = {agent: _begins_ns(evidence, agent) for agent in evidence.agents}
     first_ns: dict[TeamStrategy, int] = {}
     for record in evidence.records.strategies:
         first_ns.setdefault(record.strategy, record.stamp_ns)
@@ -35,7 +37,10 @@ def audit_plans(evidence: Evidence) -> Iterator[str]:
         yield from _apart(held, evidence, agreed_ns * 1e-9)
         yield from _closed(held, evidence, agreed_ns * 1e-9)
         for own in held.strategies:
-            yield from _too_soon(held.round, own, evidence, agreed_ns)
+            earlier_ns = begins_ns.get(own.agent, [])
+            before = bisect_right(earlier_ns, agreed_ns)
+            begin_s = earlier_ns[before - 1] * 1e-9 if before else 0.0
+            yield from _too_soon(held.round, own, evidence, begin_s)
 
 
 def _untimely(held: TeamStrategy, period_s: float) -> Iterator[str]:
@@ -111,19 +116,17 @@ def _known_maps(evidence: Evidence, agreed_s: float) -> tuple[tuple[Box, ...], .
     return tuple(boxes for at_s, boxes in maps if at_s <= agreed_s)
 
 
-def _too_soon(number: int, own: Strategy, evidence: Evidence, agreed_ns: int) -> Iterator[str]:
+def _begins_ns(evidence: Evidence, agent: str) -> list[int]:
+    """Return when meetings began for an agent, ascending."""
+    events = evidence.events_of(agent)
+    return [record.stamp_ns for record in events if record.event.kind in _BEGINNINGS]
+
+
+def _too_soon(number: int, own: Strategy, evidence: Evidence, begins_s: float) -> Iterator[str]:
     """Say if an agent is to arrive before it can, straight from the meeting where it agreed."""
     track = evidence.track_of.get(own.agent)
     if track is None or own.agent not in evidence.scenario.agents:
         return
-    begins_s = max(
-        (
-            record.stamp_ns * 1e-9
-            for record in evidence.events_of(own.agent)
-            if record.event.kind in _BEGINNINGS and record.stamp_ns <= agreed_ns
-        ),
-        default=0.0,
-    )
     way_m = math.dist(track.at(np.array([begins_s]))[0], (own.x_m, own.y_m))
     earliest_s = begins_s + way_m / evidence.scenario.drive_of(own.agent).linear_mps
     if own.arrival_s < earliest_s - _SLACK_S:

@@ -2,6 +2,7 @@
 
 ``topics``       what a run records
 ``definitions``  the message definitions that go inside
+``compression``  how chunks are compressed
 ``records``      the encoding of MCAP records
 ``parsing``      their decoding
 ``writer``       crash-safe writing

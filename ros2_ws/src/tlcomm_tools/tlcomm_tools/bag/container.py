@@ -139,12 +139,14 @@ class _Parser:
 
     def _take_chunk(self, content: bytes) -> None:
         data = read_chunk(content)
-        offset, unpack = 0, RECORD.unpack_from
+        # Bound once: there are hundreds of thousands of messages.
+        offset, unpack, head = 0, RECORD.unpack_from, RECORD.size
+        message, take = int(Opcode.MESSAGE), self._take_message
         while offset < len(data):
             opcode, length = unpack(data, offset)
-            offset += RECORD.size
-            if opcode == Opcode.MESSAGE:
-                self._take_message(data, offset, offset + length)
+            offset += head
+            if opcode == message:
+                take(data, offset, offset + length)
             else:
                 self._take(opcode, data[offset : offset + length])
             offset += length

@@ -13,8 +13,9 @@ from collections.abc import Iterator
 from typing import BinaryIO, Final
 from zlib import crc32
 
-import lz4.frame  # type: ignore[import-untyped]
 import zstandard
+
+from tlcomm_tools.bag.compression import decompress
 
 __all__ = [
     "DECODING_ERRORS",
@@ -83,18 +84,7 @@ def read_chunk(content: bytes) -> bytes:
     """Return the records inside a chunk, decompressed and checked."""
     _, _, size, checksum = _CHUNK.unpack_from(content)
     compression, offset = read_string(content, _CHUNK.size)
-    data = _decompress(content[offset + 8 :], compression, size)
+    data = decompress(content[offset + 8 :], compression, size)
     if checksum and crc32(data) != checksum:
         raise ValueError("a chunk's checksum doesn't match")
-    return data
-
-
-def _decompress(data: bytes, compression: str, size: int) -> bytes:
-    if compression == "zstd":
-        return zstandard.decompress(data, max_output_size=size)
-    if compression == "lz4":
-        unpacked: bytes = lz4.frame.decompress(data)
-        return unpacked
-    if compression:
-        raise ValueError(f"unknown compression {compression!r}")
     return data

@@ -12,17 +12,15 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-import zstandard
-
 from tlcomm_tools.bag import records
+from tlcomm_tools.bag.compression import DEFAULT, Compression, compress
 from tlcomm_tools.bag.definitions import Definition
 from tlcomm_tools.bag.metadata import BagCounts, qos_text, render_metadata
 from tlcomm_tools.bag.topics import Topic
 
 __all__ = ["CHUNK_SIZE", "BagWriter"]
 
-CHUNK_SIZE = 256 * 1024
-_COMPRESSION = "zstd"
+CHUNK_SIZE = 1024 * 1024
 # Rewriting the summary at each flush may take at most this share of the time.
 _FLUSH_SHARE = 0.05
 _NO_SPAN = (2**63 - 1, 0)
@@ -54,6 +52,7 @@ class BagWriter:
         definitions: Mapping[str, Definition],
         notes: Mapping[str, str],
         *,
+        compression: Compression = DEFAULT,
         period_s: float = 0.5,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
@@ -64,6 +63,7 @@ class BagWriter:
             topics: every topic; its place in this sequence is its number in ``write``.
             definitions: by type, one for each topic's.
             notes: what else a reader should know, kept inside the file.
+            compression: of the chunks.
             period_s: wall time after which a flush is due.
             clock: wall time in seconds.
 
@@ -77,7 +77,7 @@ class BagWriter:
         self._definitions = definitions
         self._period_s = period_s
         self._clock = clock
-        self._compressor = zstandard.ZstdCompressor(level=1)
+        self._compression = compression
         self._chunk = _Chunk()
         self._counts = dict.fromkeys(range(1, len(topics) + 1), 0)
         self._span_ns = _NO_SPAN
@@ -160,8 +160,8 @@ class BagWriter:
     def _append_chunk(self) -> None:
         chunk, self._chunk = self._chunk, _Chunk()
         contents = bytes(chunk.contents)
-        compressed = self._compressor.compress(contents)
-        body = records.chunk(chunk.span_ns, contents, compressed, _COMPRESSION)
+        compressed = compress(contents, self._compression)
+        body = records.chunk(chunk.span_ns, contents, compressed, self._compression.tag)
         indexes = b""
         offsets = {}
         for number, places in chunk.places.items():
@@ -175,7 +175,7 @@ class BagWriter:
             index_length=len(indexes),
             sizes=(len(compressed), len(contents)),
         )
-        self._chunk_indexes.append(records.chunk_index(place, _COMPRESSION))
+        self._chunk_indexes.append(records.chunk_index(place, self._compression.tag))
         self._span_ns = (
             min(self._span_ns[0], chunk.span_ns[0]),
             max(self._span_ns[1], chunk.span_ns[1]),

@@ -4,7 +4,7 @@
 """
 
 import statistics
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Final
 
 from tlcomm_core.method import Method
@@ -22,6 +22,7 @@ from tlcomm_tools.live.way import Way
 from tlcomm_tools.live.windows import Windows
 from tlcomm_tools.report.document import finite, report_document
 from tlcomm_tools.report.links import Links
+from tlcomm_tools.report.plans import COLUMNS, Corner, Plans
 from tlcomm_tools.report.steps import done_steps, incidents
 
 __all__ = ["LiveDocument"]
@@ -113,6 +114,10 @@ class LiveDocument:
         if record.agent in self._agents:
             self._agents[record.agent].take_estimate(record)
 
+    def take_plan(self, agent: str, stamp_ns: int, corners: Sequence[Corner]) -> None:
+        """Take which corners are before an agent."""
+        self._agents[agent].take_plan(stamp_ns, corners)
+
     def take_response(self, said: BestResponse) -> None:
         """Take what an agent told of a best response."""
         self._rounds.take_response(said)
@@ -176,12 +181,17 @@ class _Agent:
         self._satisfied: Final = Growing(*own, "satisfied_s")
         self._steps: Final = Growing(*own, "steps")
         self._estimates: Final = Growing(*own, "estimates", columns=("times_s", "values"))
+        self._plans: Final = Plans()
+        self._ways: Final = Growing(*own, "ways")
+        self._ahead: Final = Growing(*own, "ahead", columns=COLUMNS)
         self.parts: Final = (
             self.way.corners,
             self._spans,
             self._satisfied,
             self._steps,
             self._estimates,
+            self._ways,
+            self._ahead,
         )
 
     def take_event(self, record: TaskRecord) -> None:
@@ -196,6 +206,11 @@ class _Agent:
         start = len(self._estimates.items) - len(last)
         reduction.add_estimate(last, record)
         self._estimates.replace(start, last)
+
+    def take_plan(self, stamp_ns: int, corners: Sequence[Corner]) -> None:
+        self._plans.take(stamp_ns, corners)
+        self._ways.close(self._plans.ways, ())
+        self._ahead.close(self._plans.rows, ())
 
     def draw(self, end_s: float) -> None:
         self.way.draw()

@@ -20,23 +20,25 @@ from tlcomm_core.units import NANOSECONDS_PER_SECOND
 from tlcomm_core.wire.fields import WireError
 from tlcomm_core.wire.team_messages import decode_message
 from tlcomm_tools import wire
-from tlcomm_tools.bag.topics import Topic, recorded_topics, split_topic
+from tlcomm_tools.bag.topics import Topic, mirror_topics, recorded_topics, split_topic
 from tlcomm_tools.live.document import LiveDocument
+from tlcomm_tools.report.plans import PLAN_TYPE, read_corners
 
 __all__ = ["Heard", "Intake", "read_stamp", "shown_topics"]
 
 # topic's number among the shown ones, data
 Heard = tuple[int, bytes]
 
+# Without the clock: all of these together tell the time often enough.
 _SHOWN: Final = frozenset(
     {
-        "clock",
         "connectivity",
         "odom",
         "task_event",
         "team_strategy",
         "estimate",
         "best_response",
+        "plan",
     }
 )
 # Every recorded type begins with a stamp, behind the four bytes of the encapsulation.
@@ -48,7 +50,8 @@ _Taker = Callable[[wire.DecodedMessage, str], None]
 
 def shown_topics(scenario: Scenario) -> tuple[Topic, ...]:
     """Return the topics that a page shows anything of."""
-    topics = recorded_topics(scenario.agents, measures=scenario.field is not None)
+    recorded = recorded_topics(scenario.agents, measures=scenario.field is not None)
+    topics = (*recorded, *mirror_topics(scenario.agents))
     return tuple(topic for topic in topics if split_topic(topic.name)[1] in _SHOWN)
 
 
@@ -74,26 +77,24 @@ class Intake:
         self._document: Final = document
         self._topics: Final = tuple(topics)
         self._store: Final = store
-        takers: dict[str, _Taker] = {
-            "clock": self._take_clock,
-            "connectivity": self._take_connectivity,
-            "odom": self._take_odometry,
-            "task_event": self._take_event,
-            "team_strategy": self._take_strategy,
-            "estimate": self._take_estimate,
-            "best_response": self._take_response,
+        self._takers: Final[dict[str, _Taker]] = {
+            "tlcomm_msgs/msg/Connectivity": self._take_connectivity,
+            "nav_msgs/msg/Odometry": self._take_odometry,
+            "tlcomm_msgs/msg/TaskEvent": self._take_event,
+            "tlcomm_msgs/msg/TeamStrategy": self._take_strategy,
+            "tlcomm_msgs/msg/Estimate": self._take_estimate,
+            "tlcomm_msgs/msg/BestResponse": self._take_response,
         }
-        self._takers: Final = [takers[split_topic(topic.name)[1]] for topic in topics]
 
     def take(self, heard: Heard) -> None:
         """Take a message; one that makes no sense shows nothing."""
         number, data = heard
         topic = self._topics[number]
+        if topic.type == PLAN_TYPE:
+            self._document.take_plan(topic.agent, read_stamp(data), read_corners(data))
+            return
         with contextlib.suppress(WireError, SerdeError, ValueError):
-            self._takers[number](self._store.deserialize_cdr(data, topic.type), topic.agent)
-
-    def _take_clock(self, message: wire.DecodedMessage, _: str) -> None:
-        self._document.pass_time(wire.stamp_ns(message.clock))
+            self._takers[topic.type](self._store.deserialize_cdr(data, topic.type), topic.agent)
 
     def _take_connectivity(self, message: wire.DecodedMessage, _: str) -> None:
         self._document.take_connectivity(wire.read_connectivity(message))

@@ -2,6 +2,7 @@
 
 ``window_watch``  which windows are kept so far
 ``picture``       what is known of a team at one time
+``odometry``      poses and velocities, decoded fast
 ``intake``        recorded messages into the picture
 ``elements``      the small parts of standard messages
 ``way``           where an agent will drive, to the next meeting

@@ -14,9 +14,12 @@ from tlcomm_core.wire.team_messages import decode_offer
 from tlcomm_core.wire.world_messages import decode_map
 from tlcomm_tools import wire
 from tlcomm_tools.bag.topics import Topic
+from tlcomm_tools.mirror.odometry import decode_odometry
 from tlcomm_tools.mirror.picture import Picture
 
 __all__ = ["Intake"]
+
+_ODOMETRY: Final = "nav_msgs/msg/Odometry"
 
 _Taker = Callable[[wire.DecodedMessage, str], None]
 
@@ -29,7 +32,6 @@ class Intake:
         self._picture: Final = picture
         self._store: Final = store
         self._takers: Final[dict[str, _Taker]] = {
-            "nav_msgs/msg/Odometry": self._take_odometry,
             "nav_msgs/msg/OccupancyGrid": self._take_map,
             "tlcomm_msgs/msg/Connectivity": self._take_connectivity,
             "tlcomm_msgs/msg/TaskEvent": self._take_event,
@@ -39,16 +41,17 @@ class Intake:
 
     def wants(self, topic: Topic) -> bool:
         """Return whether the picture shows anything of a topic."""
-        return topic.type in self._takers
+        return topic.type == _ODOMETRY or topic.type in self._takers
 
     def take(self, topic: Topic, data: bytes) -> None:
         """Take a message of a topic that is wanted; one that makes no sense shows nothing."""
+        if topic.type == _ODOMETRY:
+            with contextlib.suppress(ValueError):
+                self._picture.take_odometry(decode_odometry(data, topic.agent))
+            return
         message = self._store.deserialize_cdr(data, topic.type)
         with contextlib.suppress(ValueError, WireError):
             self._takers[topic.type](message, topic.agent)
-
-    def _take_odometry(self, message: wire.DecodedMessage, agent: str) -> None:
-        self._picture.take_odometry(wire.read_odometry(message, agent))
 
     def _take_connectivity(self, message: wire.DecodedMessage, _: str) -> None:
         self._picture.take_connectivity(wire.read_connectivity(message))

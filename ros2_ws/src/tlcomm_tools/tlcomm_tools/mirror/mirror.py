@@ -5,9 +5,9 @@
 ``Mirror``    makes the ones of the others
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from operator import itemgetter
-from typing import Any, Final
+from typing import Final
 
 from rosbags.typesys.store import Typestore
 
@@ -18,7 +18,7 @@ from tlcomm_tools.bag.topics import Topic, mirror_topics
 from tlcomm_tools.mirror.diagnostics import make_diagnostics
 from tlcomm_tools.mirror.intake import Intake
 from tlcomm_tools.mirror.markers import make_region_markers, make_team_markers
-from tlcomm_tools.mirror.paths import make_plan, make_trail
+from tlcomm_tools.mirror.paths import encode_plan, encode_trail
 from tlcomm_tools.mirror.picture import Picture
 from tlcomm_tools.mirror.way import Way
 
@@ -96,20 +96,22 @@ class Mirror:
     def _mirrors(self) -> Iterator[Mirrored]:
         now_ns = self._due_ns
         self._due_ns += _PERIOD_NS
-        for name, message in self._made(now_ns):
-            number = self._numbers[name]
-            data = bytes(self.store.serialize_cdr(message, self.topics[number].type))
-            yield number, now_ns, data
+        for name, data in self._made(now_ns):
+            yield self._numbers[name], now_ns, data
 
-    def _made(self, now_ns: int) -> Iterable[tuple[str, Any]]:
+    def _made(self, now_ns: int) -> Iterator[tuple[str, bytes]]:
         picture = self._picture
         if now_ns == 0:
-            yield "/region_markers", make_region_markers(picture, now_ns)
-        yield "/team_markers", make_team_markers(picture, now_ns)
-        yield "/diagnostics", make_diagnostics(picture, now_ns)
+            yield self._encoded("/region_markers", make_region_markers(picture, now_ns))
+        yield self._encoded("/team_markers", make_team_markers(picture, now_ns))
+        yield self._encoded("/diagnostics", make_diagnostics(picture, now_ns))
         if now_ns % _PATH_PERIOD_NS:
             return
         for name, agent in picture.agents.items():
-            here = agent.odometry
-            yield f"/{name}/plan", make_plan(here, self._ways[name].ahead(picture), now_ns)
-            yield f"/{name}/trail", make_trail(agent.trail, now_ns)
+            ahead = self._ways[name].ahead(picture)
+            yield f"/{name}/plan", encode_plan(agent.odometry, ahead, now_ns)
+            yield f"/{name}/trail", encode_trail(agent.trail, now_ns)
+
+    def _encoded(self, name: str, message: object) -> tuple[str, bytes]:
+        kind = self.topics[self._numbers[name]].type
+        return name, bytes(self.store.serialize_cdr(message, kind))

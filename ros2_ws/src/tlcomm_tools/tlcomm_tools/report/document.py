@@ -21,6 +21,7 @@ from tlcomm_tools.audit.findings import audit_run
 from tlcomm_tools.bag.reader import RecordedRun
 from tlcomm_tools.figures import reduction
 from tlcomm_tools.report.links import link_spans
+from tlcomm_tools.report.plans import NO_PLANS, Plans
 from tlcomm_tools.report.rounds import round_documents
 from tlcomm_tools.report.steps import done_steps, incidents
 
@@ -34,6 +35,7 @@ def report_document(
     method: Method,
     recorded: RecordedRun,
     said: Iterable[BestResponse] = (),
+    plans: Mapping[str, Plans] = NO_PLANS,
     pace: Pace | None = None,
 ) -> dict[str, Any]:
     """Return what a page shows of a run; a number that isn't finite isn't available.
@@ -43,6 +45,7 @@ def report_document(
         method: of coordination.
         recorded: what the bag holds.
         said: what agents told of their best responses.
+        plans: the ways that agents had before them, as they were published.
         pace: how simulated time went on; by default as the bag says.
 
     Cost: about 4 s for 100 rounds of 8 agents, half of it the audit.
@@ -57,7 +60,7 @@ def report_document(
         "format": REPORT_FORMAT,
         "run": _run(scenario, method, recorded.notes, end_s),
         "ground": _ground(scenario),
-        "agents": _agents(scenario, records, end_s),
+        "agents": _agents(scenario, records, end_s, plans),
         "links": link_spans(records.connectivity, len(scenario.agents), end_s),
         "rounds": round_documents(scenario, method, records, end_s, said),
         "incidents": incidents(records.tasks),
@@ -91,7 +94,9 @@ def _ground(scenario: Scenario) -> dict[str, Any]:
     return {**reduction.ground(scenario).model_dump(mode="json"), "changes": changes}
 
 
-def _agents(scenario: Scenario, records: RunRecords, end_s: float) -> list[dict[str, Any]]:
+def _agents(
+    scenario: Scenario, records: RunRecords, end_s: float, plans: Mapping[str, Plans]
+) -> list[dict[str, Any]]:
     odometry = reduction.by_agent(scenario, records.odometry)
     tasks = reduction.by_agent(scenario, records.tasks)
     estimates = reduction.by_agent(scenario, records.estimates)
@@ -105,6 +110,7 @@ def _agents(scenario: Scenario, records: RunRecords, end_s: float) -> list[dict[
             "satisfied_s": reduction.satisfactions_s(tasks[name]),
             "steps": done_steps(tasks[name]),
             "estimates": _dump(reduction.estimates(estimates[name])),
+            **plans.get(name, Plans()).document(),
         }
         for name, own in scenario.agents.items()
     ]

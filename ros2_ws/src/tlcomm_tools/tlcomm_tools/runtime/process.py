@@ -68,6 +68,7 @@ def _parser() -> argparse.ArgumentParser:
     sim.add_argument("--until", type=float, metavar="S")
     recorder = roles.add_parser("recorder", help="the recorder")
     recorder.add_argument("--bag", type=Path, required=True)
+    recorder.add_argument("--compression", required=True)
     for role in (agent, sim, recorder):
         role.add_argument("--scenario", required=True)
         role.add_argument("--seed", type=int, default=0)
@@ -124,6 +125,7 @@ def _be_sim(arguments: argparse.Namespace, notifier: Notifier) -> int:
 
 def _be_recorder(arguments: argparse.Namespace, notifier: Notifier) -> int:
     from tlcomm_core.scenario.loader import dumps, load_scenario  # noqa: PLC0415 (as above)
+    from tlcomm_tools.bag.compression import Compression  # noqa: PLC0415 (as above)
     from tlcomm_tools.runtime import recorder  # noqa: PLC0415 (as above)
 
     scenario = load_scenario(arguments.scenario)
@@ -134,8 +136,14 @@ def _be_recorder(arguments: argparse.Namespace, notifier: Notifier) -> int:
         "seed": str(arguments.seed),
         "pace": arguments.pace,
     }
-    method = parse_method(arguments.method)
-    settings = recorder.RecorderSettings(arguments.bag, scenario, method, notes)
+    settings = recorder.RecorderSettings(
+        bag=arguments.bag,
+        scenario=scenario,
+        method=parse_method(arguments.method),
+        is_lockstep=parse_pace(arguments.pace).is_lockstep,
+        compression=Compression(arguments.compression),
+        notes=notes,
+    )
     return recorder.run(settings, spin, notifier)
 
 

@@ -4,10 +4,14 @@
 ``run``               the process's whole life
 ``Recorder``          the node
 
-In lock step it takes part like an agent: a tick says how many messages have been published, and is
-answered only when all of them have arrived. So nothing can be missing without being noticed.
-Topics overtake each other; only at an answer does the bag hold all of them up to one time. So that
-is when it is brought into the file: a recording that breaks off ends at one time on all topics.
+In lock step it takes part like an agent: a tick says how many messages have been published up to a
+time, and is answered only when all of them have arrived. So nothing can be missing without being
+noticed. Then they are written, and nothing later is: a recording that breaks off ends at one time
+on all topics, and equal runs are written in the same order. The answer comes first: what follows
+from it goes on beside the run.
+
+Waking up for a message costs more than writing it. So the recorder sleeps until it is ticked, or
+running freely for a tenth of a second, and then takes all that has come.
 
 Since it hears everything, it also makes the mirrors for other people's viewers, publishes them, and
 records them beside the rest.
@@ -16,6 +20,7 @@ records them beside the rest.
 import signal
 import struct
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
@@ -35,11 +40,13 @@ from tlcomm_core.method import Method
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_core.units import NANOSECONDS_PER_SECOND
 from tlcomm_msgs.msg import Tick, TickReply
+from tlcomm_tools.bag.compression import DEFAULT, Compression
 from tlcomm_tools.bag.definitions import load_typestore, read_definition
 from tlcomm_tools.bag.topics import Topic, recorded_topics
 from tlcomm_tools.bag.writer import BagWriter
 from tlcomm_tools.mirror.mirror import Mirror
-from tlcomm_tools.runtime.ledger import Expected, Ledger
+from tlcomm_tools.runtime.backlog import FOR_EVER, Arrived, Backlog
+from tlcomm_tools.runtime.ledger import Expected
 from tlcomm_tools.runtime.notify import Failed, Finished, Notifier, Ready, Started
 from tlcomm_tools.runtime.spin import Spin
 from tlcomm_tools.status import Status
@@ -68,12 +75,16 @@ class RecorderSettings:
         bag: the bag's folder, which doesn't exist yet.
         scenario: what is run.
         method: how.
+        is_lockstep: whether it is ticked, or else runs freely.
+        compression: of the bag's chunks.
         notes: what the bag says about the run besides its messages.
     """
 
     bag: Path
     scenario: Scenario
     method: Method = Method.TEAM
+    is_lockstep: bool = True
+    compression: Compression = DEFAULT
     notes: dict[str, str] = field(default_factory=dict)
 
     @property
@@ -119,7 +130,9 @@ def _make_mirror(settings: RecorderSettings) -> Mirror:
 def _open_bag(settings: RecorderSettings, mirror: Mirror) -> BagWriter:
     topics = (*settings.topics, *mirror.topics)
     definitions = {topic.type: read_definition(mirror.store, topic.type) for topic in topics}
-    return BagWriter(settings.bag, topics, definitions, settings.notes)
+    return BagWriter(
+        settings.bag, topics, definitions, settings.notes, compression=settings.compression
+    )
 
 
 def _record(
@@ -145,7 +158,7 @@ def _record(
         until_s = time.monotonic() + _DRAIN_S
         spin(node, lambda: node.is_done or node.is_quiet or time.monotonic() > until_s)
         node.say_what_is_missing()
-        node.mirror_the_rest()
+        node.write_the_rest()
     finally:
         node.destroy_node()
         rclpy.try_shutdown(context=context)
@@ -185,16 +198,23 @@ class Recorder(Node):
         self._is_ready = False
         self._is_running = False
         self._tick: Tick | None = None
-        self._is_ticked = False
+        self._expected = Expected(0, 0, 0, 0, ())
+        self._is_lockstep = settings.is_lockstep
         topics = settings.topics
         self._clock_number = [topic.name for topic in topics].index("/clock")
-        self._ledger = Ledger(topics, settings.agents)
+        self._backlog = Backlog(topics, settings.agents, -1 if self._is_lockstep else FOR_EVER)
         self._recorded = [self._subscribe(number, topic) for number, topic in enumerate(topics)]
         self._mirrors = [self._offer(topic) for topic in mirror.topics]
-        self.create_subscription(Tick, f"{_NAME}/tick", self._on_tick, _qos(latched=False))
-        self._replies = self.create_publisher(TickReply, "tick_reply", _qos(latched=False))
+        qos = _qos(latched=False)
+        self._ticks = self.create_subscription(Tick, f"{_NAME}/tick", self._on_tick, qos)
+        self._replies = self.create_publisher(TickReply, "tick_reply", qos)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(_PERIOD_S, self._on_timer, clock=steady)
+
+    @property
+    def urgent(self) -> object:
+        """What alone need wake the recorder up now: a tick, unless it waits for what one counts."""
+        return self._ticks if self._tick is None else None
 
     def await_silence(self) -> None:
         """Begin to look out for silence."""
@@ -208,19 +228,31 @@ class Recorder(Node):
     def say_what_is_missing(self) -> None:
         """Log what a tick counts and hasn't arrived, if the recorder was waiting for it."""
         if self._tick is not None:
-            self.get_logger().error(self._missing(self._tick))
+            self.get_logger().error(self._missing())
 
-    def _missing(self, tick: Tick) -> str:
-        return f"hasn't arrived: {self._ledger.describe_missing(_expected(tick))}"
+    def _missing(self) -> str:
+        return f"hasn't arrived: {self._backlog.describe_missing(self._expected)}"
 
-    def mirror_the_rest(self) -> None:
-        """Mirror all up to the last time of the clock."""
+    def write_the_rest(self) -> None:
+        """Write and mirror all that has arrived, though it may not be all of one time."""
+        self._backlog.cover(FOR_EVER)
+        self._write(self._backlog.hand_out())
         self._show_mirrors(self._clock_ns)
 
+    def _write(self, arrived: Iterable[Arrived]) -> None:
+        for stamp_ns, number, data in arrived:
+            self._writer.write(number, stamp_ns, data)
+            self._mirror.take(number, stamp_ns, data)
+            if number == self._clock_number:
+                self._clock_ns = stamp_ns
+
     def _show_mirrors(self, until_ns: int) -> None:
+        """Record the mirrors that are due; publish those that somebody may look at."""
         for number, stamp_ns, data in self._mirror.advance(until_ns):
             self._writer.write(len(self._recorded) + number, stamp_ns, data)
-            self._mirrors[number].publish(data)
+            mirror = self._mirrors[number]
+            if self._mirror.topics[number].latched or mirror.get_subscription_count():
+                mirror.publish(data)
 
     def _offer(self, topic: Topic) -> Any:  # noqa: ANN401 - rclpy is untyped
         return self.create_publisher(_load_type(topic), topic.name, _qos(latched=topic.latched))
@@ -238,14 +270,7 @@ class Recorder(Node):
             self.get_logger().warning(f"ignored: {len(data)} bytes are no message with a stamp")
             return
         seconds, nanoseconds = _STAMP.unpack_from(data, _STAMP_OFFSET)
-        stamp_ns = seconds * NANOSECONDS_PER_SECOND + nanoseconds
-        self._writer.write(number, stamp_ns, data)
-        self._mirror.take(number, stamp_ns, data)
-        if number == self._clock_number:
-            self._clock_ns = stamp_ns
-        if not self._is_ticked:
-            self._writer.flush_if_due()
-        self._ledger.count(number)
+        self._backlog.take(seconds * NANOSECONDS_PER_SECOND + nanoseconds, number, data)
         self._silent_periods = 0
         self._is_running = True
         if self._tick is not None:
@@ -253,34 +278,39 @@ class Recorder(Node):
 
     def _on_tick(self, tick: Tick) -> None:
         self._is_running = True
-        self._is_ticked = True
         self._tick = tick
         self._tick_since_s = time.monotonic()
+        self._expected = _expected(tick)
+        self._backlog.cover(FOR_EVER if tick.stop else tick.time_ns)
         self._answer_when_complete(tick)
 
     def _answer_when_complete(self, tick: Tick) -> None:
-        if not self._ledger.is_complete(_expected(tick)):
+        if not self._backlog.is_complete(self._expected):
             return
         self._tick = None
+        if not tick.stop:
+            self._reply(tick.sequence)
+        self._write(self._backlog.hand_out())
         self._show_mirrors(tick.time_ns)
-        if tick.stop:
-            self._writer.flush()
-        else:
+        if not tick.stop:
             self._writer.flush_if_due()
+            return
+        self._writer.flush()
         self._reply(tick.sequence)
-        if tick.stop:
-            self._replies.wait_for_all_acked(Duration(seconds=_ACKNOWLEDGED_S))
-            self.is_done = True
+        self._replies.wait_for_all_acked(Duration(seconds=_ACKNOWLEDGED_S))
+        self.is_done = True
 
     def _on_timer(self) -> None:
-        if not self._is_ticked:
+        if not self._is_lockstep and self._tick is None:
+            self._write(self._backlog.hand_out())
             # What is on its way for longer than that is shown a second later.
             self._show_mirrors(self._clock_ns)
+        if self._tick is None:
             self._writer.flush_if_due()
         self._silent_periods += 1
         if self._tick is not None and time.monotonic() > self._tick_since_s + _PATIENCE_S:
             # The sim could only say that the recorder doesn't answer; this names whose fault it is.
-            self._notifier.tell(Failed(self._missing(self._tick), Status.BROKEN))
+            self._notifier.tell(Failed(self._missing(), Status.BROKEN))
         if self._is_running:
             return
         if not self._is_ready and self._is_matched():

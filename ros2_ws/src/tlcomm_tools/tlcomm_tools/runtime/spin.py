@@ -8,9 +8,14 @@ An executor rebuilds its wait set from Python objects before every wait, with tw
 per publisher and subscription in it; that is more than half of what a small message costs. Here
 the set is kept, holds subscriptions, timers, services and guard conditions only, and a subscription
 that is ready is emptied at once. The price is rclpy's private wait set, used in this module alone.
+
+To wait for a subscription costs about as much as to take a message from it. A node that has many,
+and need not act before one of them brings something, says so by a property ``urgent``: that
+subscription, or ``None`` while it waits for all. Whenever it wakes up it is given what all of them
+have brought, the urgent one's last.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
@@ -24,6 +29,8 @@ from rclpy.subscription import Subscription
 __all__ = ["Spin", "spin", "spin_executor", "spin_fast"]
 
 Spin = Callable[[Node, Callable[[], bool]], None]
+# what takes a message, the message's type, whether as bytes, and who is given it
+_Source = tuple[Callable[[Any, bool], Any], Any, bool, Callable[[Any], None]]
 
 _WAIT_NS = 100_000_000
 _WAIT_SET_METHODS = (
@@ -119,12 +126,19 @@ class _Loop:
         """
         if self._entities != self._present():
             self._build()
-        self._wait()
-        ready = self._wait_set.get_ready_entities("subscription")
+        urgent: Subscription | None = getattr(self._node, "urgent", None)
+        self._wait(self._handles_to_wait_for(urgent))
+        if urgent is None:
+            for pointer in self._wait_set.get_ready_entities("subscription"):
+                _drain(self._source_at[pointer])
+        else:
+            pointer = urgent.handle.pointer
+            for other, source in self._source_at.items():
+                if other != pointer:
+                    _drain(source)
+            _drain(self._source_at[pointer])
         if self._wait_set.get_ready_entities("timer"):
             self._run_timers()
-        for pointer in ready:
-            _drain(self._subscription_at[pointer])
         if self._services:
             self._run_services()
         if self._guards:
@@ -137,7 +151,10 @@ class _Loop:
     def _build(self) -> None:
         subscriptions, timers, guards, services = self._entities = self._present()
         self._subscriptions = [(s, s.handle, s.callback_group.can_execute) for s in subscriptions]
-        self._subscription_at = {s.handle.pointer: s for s in subscriptions}
+        self._source_at = {
+            s.handle.pointer: (s.handle.take_message, s.msg_type, s.raw, s.callback)
+            for s in subscriptions
+        }
         self._timers = [(timer, timer.handle) for timer in timers]
         self._guards = {guard.handle.pointer: guard for guard in guards}
         self._services = {service.handle.pointer: service for service in services}
@@ -151,12 +168,20 @@ class _Loop:
             subscriptions, guards, timers, 0, services, 0, self._context.handle
         )
 
-    def _wait(self) -> None:
+    def _handles_to_wait_for(self, urgent: Subscription | None) -> list[Any]:
+        if urgent is not None:
+            return [urgent.handle]
+        return [
+            handle
+            for subscription, handle, can_execute in self._subscriptions
+            if can_execute(subscription)
+        ]
+
+    def _wait(self, subscriptions: Iterable[Any]) -> None:
         wait_set = self._wait_set
         wait_set.clear_entities()
-        for subscription, handle, can_execute in self._subscriptions:
-            if can_execute(subscription):
-                wait_set.add_subscription(handle)
+        for handle in subscriptions:
+            wait_set.add_subscription(handle)
         for _, handle in self._timers:
             wait_set.add_timer(handle)
         for service in self._services.values():
@@ -190,9 +215,8 @@ class _Loop:
                 guard.callback()
 
 
-def _drain(subscription: Subscription) -> None:
-    take, kind, raw = subscription.handle.take_message, subscription.msg_type, subscription.raw
-    callback = subscription.callback
+def _drain(source: _Source) -> None:
+    take, kind, raw, callback = source
     while (taken := take(kind, raw)) is not None:
         callback(taken[0])
 

@@ -29,7 +29,7 @@ from rclpy.signals import SignalHandlerOptions
 from tlcomm_core.method import parse_method
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_tools.bag.definitions import load_typestore
-from tlcomm_tools.bag.topics import Topic
+from tlcomm_tools.bag.topics import Topic, split_topic
 from tlcomm_tools.live.audience import Audience
 from tlcomm_tools.live.document import LiveDocument
 from tlcomm_tools.live.gate import Asked, Gate
@@ -44,6 +44,11 @@ __all__ = ["main"]
 _NAME: Final = "live_view"
 _DEPTH: Final = 1000
 _PERIOD_S: Final = 0.25
+# Messages are taken together, that many a time: to wake up for each would cost more.
+_NAP_S: Final = 0.05
+# What is said once is not to be missed. The rest is said again soon, or is not missed; and whom
+# nobody waits for an answer from costs the sayers least.
+_SAID_ONCE: Final = frozenset({"task_event", "team_strategy", "estimate"})
 # Who is so far behind has lost the run anyway, and is not to eat the machine's memory.
 _MOST_HEARD: Final = 200_000
 # The run goes first.
@@ -88,6 +93,7 @@ async def _tell(session: Session, audience: Audience, ear: "_Ear") -> None:
     words = asyncio.create_task(_obey(session, ear))
     while not words.done():
         await asyncio.wait((words,), timeout=_PERIOD_S)
+        ear.require()
         session.take([*ear.heard()], is_hearing=ear.is_hearing)
         if news := session.news():
             audience.tell(news)
@@ -122,20 +128,25 @@ class _Ear:
         self.is_hearing = False
         self._topics: Final = topics
         self._heard: Final = deque[Heard](maxlen=_MOST_HEARD)
-        self._has_to_end = False
+        self._end = threading.Event()
         self._thread = threading.Thread(target=self._listen, name="ear", daemon=True)
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._has_to_end = True
+        self._end.set()
         if self._thread.is_alive():
             self._thread.join()
 
     def begin(self) -> None:
         """Begin to listen."""
         self._thread.start()
+
+    def require(self) -> None:
+        """Make sure that it still listens, if it began to."""
+        if self._thread.ident is not None and not self._thread.is_alive():
+            raise RuntimeError("nothing is heard any more")
 
     def heard(self) -> Iterator[Heard]:
         """Yield what was heard since the last call, in the order of arrival."""
@@ -158,7 +169,7 @@ class _Ear:
         def is_over() -> bool:
             if not self.is_hearing:
                 self.is_hearing = all(own.get_publisher_count() for own in subscriptions)
-            return self._has_to_end
+            return self._end.wait(_NAP_S)
 
         try:
             spin(node, is_over)
@@ -168,18 +179,27 @@ class _Ear:
 
     def _subscribe(self, node: Node, number: int, topic: Topic) -> Any:  # noqa: ANN401 - untyped
         package, _, name = topic.type.split("/")
-        durability = (
-            QoSDurabilityPolicy.TRANSIENT_LOCAL if topic.latched else QoSDurabilityPolicy.VOLATILE
-        )
         return node.create_subscription(
             getattr(import_module(f"{package}.msg"), name),
             topic.name,
             lambda data: self._heard.append((number, data)),
-            QoSProfile(
-                depth=_DEPTH, reliability=QoSReliabilityPolicy.RELIABLE, durability=durability
-            ),
+            _quality(topic),
             raw=True,
         )
+
+
+def _quality(topic: Topic) -> QoSProfile:
+    return QoSProfile(
+        depth=_DEPTH,
+        reliability=(
+            QoSReliabilityPolicy.RELIABLE
+            if split_topic(topic.name)[1] in _SAID_ONCE
+            else QoSReliabilityPolicy.BEST_EFFORT
+        ),
+        durability=(
+            QoSDurabilityPolicy.TRANSIENT_LOCAL if topic.latched else QoSDurabilityPolicy.VOLATILE
+        ),
+    )
 
 
 if __name__ == "__main__":

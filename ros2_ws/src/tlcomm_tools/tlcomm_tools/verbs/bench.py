@@ -18,7 +18,7 @@ from tlcomm_core.mission import Mission
 from tlcomm_core.planning.product import build
 from tlcomm_core.planning.synthesis import plan_task
 from tlcomm_core.scenario.loader import load_scenario
-from tlcomm_core.scenario.model import MAX_AGENTS
+from tlcomm_core.scenario.model import MAX_AGENTS, Scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate
 from tlcomm_core.units import seconds
@@ -26,6 +26,7 @@ from tlcomm_core.workspace.atlas import Atlas
 from tlcomm_tools.instances import INSTANCES, plant_rounds, random_rounds
 from tlcomm_tools.limit import time_limit_s
 from tlcomm_tools.problems import PROBLEMS, Problem
+from tlcomm_tools.recording_bench import format_recording, measure_recording
 from tlcomm_tools.rounds import pose_round
 from tlcomm_tools.solver_bench import SolverRow, growth, measure_solvers
 from tlcomm_tools.status import Status
@@ -53,6 +54,11 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--traffic",
         action="store_true",
         help="measure what agents say instead, in random teams of growing size",
+    )
+    parser.add_argument(
+        "--recording",
+        action="store_true",
+        help="measure what recording costs instead: runs in pairs, with a recorder and without",
     )
     parser.add_argument(
         "--agents",
@@ -84,6 +90,8 @@ def run(options: Namespace) -> Status:
     sites = [Site.from_scenario(load_scenario(path)) for path in options.scenarios]
     if options.traffic:
         return _run_traffic(options)
+    if options.recording:
+        return _run_recording([site.scenario for site in sites], options)
     if options.solvers:
         return _run_solvers(sites[0], options)
     measured = [_measure(site, options.repeats, options.rounds) for site in sites]
@@ -111,6 +119,16 @@ def _run_traffic(options: Namespace) -> Status:
         print_json({"format": "tlcomm-bench/1", "traffic": [asdict(row) for row in rows]})
     else:
         print(format_traffic(rows))
+    return Status.FINE
+
+
+def _run_recording(scenarios: Sequence[Scenario], options: Namespace) -> Status:
+    """Measure what recording costs."""
+    rows = [measure_recording(own, options.rounds, options.repeats) for own in scenarios]
+    if options.json:
+        print_json({"format": "tlcomm-bench/1", "recording": [asdict(row) for row in rows]})
+    else:
+        print(format_recording(rows, options.rounds, options.repeats))
     return Status.FINE
 
 

@@ -8,6 +8,7 @@ from tlcomm_tools.audit.findings import Audit, audit_run
 from tlcomm_tools.audit.tasks import TaskFinding
 from tlcomm_tools.bag.origin import find_method, find_pace, find_scenario
 from tlcomm_tools.bag.reader import read_run
+from tlcomm_tools.collection import uncollected
 from tlcomm_tools.status import Status
 from tlcomm_tools.table import format_number, format_table
 from tlcomm_tools.verbs.options import add_recorded_arguments, print_json
@@ -26,15 +27,16 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(options: Namespace) -> Status:
     """Audit the run and show what was found."""
-    recorded = read_run(options.run)
-    audit = audit_run(
-        find_scenario(options.run, recorded, options.scenario),
-        find_method(options.run, recorded, options.method),
-        recorded.records,
-        recorded.end_ns,
-        recorded.damage,
-        find_pace(options.run, recorded, options.pace),
-    )
+    with uncollected():
+        recorded = read_run(options.run)
+        audit = audit_run(
+            find_scenario(options.run, recorded, options.scenario),
+            find_method(options.run, recorded, options.method),
+            recorded.records,
+            recorded.end_ns,
+            recorded.damage,
+            find_pace(options.run, recorded, options.pace),
+        )
     if options.json:
         print_json(audit.document())
     else:
@@ -47,6 +49,9 @@ def _format_audit(audit: Audit) -> str:
     found = {label: text for own in audit.guarantees for label, text in own.shown.items()}
     if audit.method is not Method.NONE:
         found["strategies agreed"] = f"{agreed.equal} of {agreed.rounds} {_agreed_on(audit.method)}"
+    if audit.equilibria is not None:
+        own = audit.equilibria
+        found["equilibria judged"] = f"{own.judged} of {own.strategies} strategies"
     rows = [
         (
             own.agent,

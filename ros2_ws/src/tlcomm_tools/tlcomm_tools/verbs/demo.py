@@ -8,6 +8,7 @@ from tlcomm_core.errors import InputError
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_tools.status import Status
 from tlcomm_tools.verbs.options import (
+    add_compression_argument,
     add_mission_arguments,
     add_pace_argument,
     add_view_argument,
@@ -25,6 +26,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the verb's arguments."""
     add_mission_arguments(parser)
     add_pace_argument(parser)
+    add_compression_argument(parser)
     add_view_argument(parser)
 
 

@@ -3,12 +3,13 @@
 ``add_mission_arguments``  what is run, how long, and where to
 ``add_recorded_arguments``  a run to look at, and what it was if its bag doesn't say
 ``add_pace_argument``      how simulated time goes on
+``add_compression_argument``  how the bag is compressed
 ``add_seed_argument``      what chance is drawn from
 ``add_solver_argument``    how rounds are solved
 ``add_view_argument``      whether a browser can look on
 ``positive_int``, ``not_negative_int``, ``positive_float``, ``positive_fraction``   types
 ``not_negative_float``, ``share``, ``seed``, ``team_size``   more types
-``pace``, ``method``, ``solver``  more types
+``pace``, ``method``, ``solver``, ``compression``  more types
 ``mission_end``            how long to run
 ``print_json``             one document on standard output
 """
@@ -25,15 +26,19 @@ from tlcomm_core.errors import InputError
 from tlcomm_core.game.solver import DEFAULT, SOLVERS, Solver
 from tlcomm_core.method import Method
 from tlcomm_core.pace import Pace, parse_pace
+from tlcomm_tools.bag.compression import DEFAULT as DEFAULT_COMPRESSION
+from tlcomm_tools.bag.compression import Compression
 
 __all__ = [
     "LOCKSTEP",
+    "add_compression_argument",
     "add_mission_arguments",
     "add_pace_argument",
     "add_recorded_arguments",
     "add_seed_argument",
     "add_solver_argument",
     "add_view_argument",
+    "compression",
     "method",
     "mission_end",
     "not_negative_float",
@@ -155,6 +160,14 @@ def method(text: str) -> Method:
     return Method(text)
 
 
+def compression(text: str) -> Compression:
+    """Read a way of compressing a bag."""
+    if text not in list(Compression):
+        choices = ", ".join(repr(own.value) for own in Compression)
+        raise argparse.ArgumentTypeError(f"invalid choice: {text!r} (choose from {choices})")
+    return Compression(text)
+
+
 def solver(text: str) -> Solver:
     """Read a solver's name."""
     if text not in SOLVERS:
@@ -241,6 +254,17 @@ def add_pace_argument(parser: argparse.ArgumentParser) -> None:
         default=Pace(None),
         metavar="lockstep|FACTOR",
         help="in lock step (the default), or at a factor of real time",
+    )
+
+
+def add_compression_argument(parser: argparse.ArgumentParser) -> None:
+    """Add how the bag is compressed."""
+    parser.add_argument(
+        "--compression",
+        type=compression,
+        default=DEFAULT_COMPRESSION,
+        metavar="NAME",
+        help=f"of the bag: {', '.join(Compression)} (default {DEFAULT_COMPRESSION})",
     )
 
 

@@ -7,10 +7,12 @@ from typing import Final
 from tlcomm_core.errors import InputError
 from tlcomm_tools.bag.origin import find_method, find_pace, find_scenario
 from tlcomm_tools.bag.reader import read_run
+from tlcomm_tools.collection import uncollected
 from tlcomm_tools.folder import replace_file
 from tlcomm_tools.report.document import report_document
 from tlcomm_tools.report.moves import read_best_responses
 from tlcomm_tools.report.page import render_page
+from tlcomm_tools.report.plans import read_plans
 from tlcomm_tools.status import Status
 from tlcomm_tools.verbs.options import add_recorded_arguments, print_json
 
@@ -32,15 +34,16 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
 
 
+@uncollected()
 def run(options: Namespace) -> Status:
     """Write the page; the status is that of reading and writing, whatever the verdict."""
     _require_writable(options.out)
     recorded = read_run(options.run)
     scenario = find_scenario(options.run, recorded, options.scenario)
     method = find_method(options.run, recorded, options.method)
-    said = read_best_responses(options.run)
     pace = find_pace(options.run, recorded, options.pace)
-    document = report_document(scenario, method, recorded, said, pace)
+    said, plans = read_best_responses(options.run), read_plans(options.run)
+    document = report_document(scenario, method, recorded, said, plans, pace)
     text = render_page(document)
     replace_file(options.out, text)
     verdict = document["audit"]["verdict"]

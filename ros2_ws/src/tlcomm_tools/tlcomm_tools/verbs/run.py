@@ -16,6 +16,7 @@ from tlcomm_tools.run import RunOptions, run_mission
 from tlcomm_tools.status import Status
 from tlcomm_tools.summary import format_summary
 from tlcomm_tools.verbs.options import (
+    add_compression_argument,
     add_mission_arguments,
     add_pace_argument,
     add_view_argument,
@@ -33,6 +34,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("scenario", type=Path, metavar="SCENARIO", help="a scenario file (YAML)")
     add_mission_arguments(parser)
     add_pace_argument(parser)
+    add_compression_argument(parser)
     add_view_argument(parser)
 
 
@@ -60,6 +62,7 @@ def run_scenario(scenario: Scenario, options: Namespace) -> Status:
         rounds=rounds,
         until_s=until_s,
         out=options.out,
+        compression=options.compression,
         has_view=options.view,
     )
     with Progress.towards(rounds, limit_s, options.method) as progress:

@@ -4,6 +4,12 @@ const REDRAW_MS = 150;
 // While the run goes on, charts are drawn anew no sooner than so; in a hidden page not at all.
 const FOLLOW_MS = 1000;
 const GROW_MS = 4000;
+// Axes and colours beside a map in a chart, its axis and margin below.
+const BESIDE_MAP_PX = 140;
+const BELOW_MAP_PX = 70;
+const MOST_MAP_PX = 480;
+// With no more counts than that, each has its tick.
+const FEW_COUNTS = 6;
 const CONFIG = { responsive: true, displayModeBar: false };
 // Where a finger scrolls the page, it can't also zoom.
 const DRAG = matchMedia("(pointer: coarse)").matches ? false : "zoom";
@@ -102,7 +108,7 @@ function drawSchedule() {
   const layout = layoutOf(
     axis("time (s)", { range: [first, last] }),
     axis("", { type: "category", categoryarray: names, range: [names.length - 0.4, -1.4] }),
-    { barmode: "overlay", height: 150 + 26 * names.length, shapes: scheduleShapes(first, last), uirevision: first, ...windowNames(first, last) },
+    { barmode: "overlay", height: 150 + 26 * names.length, shapes: scheduleShapes(first, last), uirevision: first, ...lineNames(first, last) },
   );
   Plotly.react(byId("schedule"), traces, layout, CONFIG);
 }
@@ -131,19 +137,37 @@ function windowsBetween(first, last) {
 
 function scheduleShapes(first, last) {
   const opens = windowsBetween(first, last).map((r) => lineAt(r * RUN.period_s, styled("--quiet"), "dash"));
-  return [...opens, lineAt(view.time, styled("--accent"))];
+  const changes = mapChanges(first, last).map((own) => lineAt(own.at_s, styled("--bad"), "dot"));
+  return [...opens, ...changes, lineAt(view.time, styled("--accent"))];
 }
 
-function windowNames(first, last) {
-  const annotations = windowsBetween(first, last).map((r) => ({
-    x: r * RUN.period_s, xref: "x", y: 1, yref: "paper", yanchor: "top", xanchor: "left",
-    showarrow: false, text: `window ${r}${isMissed(r) ? " missed" : ""}`,
-    font: { size: 11, color: styled("--quiet") },
-  }));
-  return { annotations };
+const mapChanges = (first, last) =>
+  DATA.ground.changes.filter((own) => own.at_s >= first && own.at_s <= last);
+
+const nameAt = (x, text, yanchor) => ({
+  x, xref: "x", y: 1, yref: "paper", yanchor, xanchor: "left", showarrow: false, text,
+  font: { size: 11, color: styled("--quiet") },
+});
+
+/** What the lines of the schedule are. */
+function lineNames(first, last) {
+  const windows = windowsBetween(first, last).map((r) =>
+    nameAt(r * RUN.period_s, `window ${r}${isMissed(r) ? " missed" : ""}`, "top"));
+  const changes = mapChanges(first, last).map((own) => nameAt(own.at_s, "the map changes", "bottom"));
+  return { annotations: [...windows, ...changes] };
+}
+
+// What the counts of places are drawn on.
+let shownObstacles = null;
+
+/** How high a map is drawn that is as wide as its chart. */
+function mapHeight(chart, wide, high) {
+  const width = Math.max(chart.clientWidth - BESIDE_MAP_PX, 100);
+  return Math.min(BELOW_MAP_PX + width * (high / wide), MOST_MAP_PX);
 }
 
 function drawPlaceCounts() {
+  shownObstacles = obstaclesAt(view.time);
   const met = RUN.has_meetings ? ROUNDS.filter((round) => round.started_s !== null) : [];
   byId("places-section").hidden = met.length === 0;
   if (met.length === 0) return;
@@ -157,23 +181,27 @@ function drawPlaceCounts() {
     if (row && column >= 0 && column < columns) row[column] = (row[column] ?? 0) + 1;
   }));
   const middle = (from, count) => Array.from({ length: count }, (_, k) => from + (k + 0.5) * cell);
+  const most = Math.max(...counts.flat());
   const heat = {
-    type: "heatmap", x: middle(left, columns), y: middle(low, rows), z: counts, zmin: 0, zmax: Math.max(...counts.flat()),
+    type: "heatmap", x: middle(left, columns), y: middle(low, rows), z: counts, zmin: 0, zmax: most,
     colorscale: "Viridis", reversescale: !matchMedia("(prefers-color-scheme: dark)").matches,
-    colorbar: { title: { text: "times", side: "top" }, thickness: 12, outlinewidth: 0 },
+    colorbar: {
+      title: { text: "times", side: "top" }, thickness: 12, outlinewidth: 0,
+      ...(most <= FEW_COUNTS && { dtick: 1 }),
+    },
     hovertemplate: "(%{x:.2f}, %{y:.2f}): %{z} times<extra></extra>", hoverongaps: false,
   };
   const layout = layoutOf(
     axis("x (m)", { range: [left, left + wide], constrain: "domain", showgrid: false, zeroline: false }),
     axis("y (m)", { range: [low, low + high], scaleanchor: "x", constrain: "domain", showgrid: false, zeroline: false }),
-    { height: 480, ...groundShapes() },
+    { height: mapHeight(byId("places"), wide, high), ...groundShapes() },
   );
   Plotly.react(byId("places"), [heat], layout, CONFIG);
 }
 
 function groundShapes() {
   const outline = { color: styled("--region"), width: 1 };
-  const boxes = DATA.ground.obstacles_m.map(([x0, y0, x1, y1]) => ({
+  const boxes = shownObstacles.map(([x0, y0, x1, y1]) => ({
     type: "rect", x0, y0, x1, y1, fillcolor: styled("--obstacle"), line: { width: 0 },
   }));
   const regions = Object.entries(DATA.ground.regions_m);
@@ -240,6 +268,7 @@ onChange((changes) => {
     drawPotentials();
     drawCosts();
   }
+  if (obstaclesAt(view.time) !== shownObstacles) drawPlaceCounts();
   if (isDue || !("time" in changes)) return;
   isDue = true;
   setTimeout(() => {

@@ -42,6 +42,7 @@ function drawSubtitle() {
 
 function drawVerdict() {
   const isFine = verdict() === "ok";
+  byId("map-title").textContent = isLive() ? "What is going on" : "What happened";
   byId("verdict").textContent = state || `verdict: ${isFine ? "ok" : "FAILED"}`;
   byId("verdict").classList.toggle("ok", isFine && !isLive());
   byId("verdict").classList.toggle("running", isLive());
@@ -97,8 +98,8 @@ function showAudit() {
 /** Why there is no audit of a run that was just looked on. */
 function describeMissingAudit() {
   const how = "Its bag is audited by tlcomm check, and shown with the audit by tlcomm report.";
-  return isLive()
-    ? `A run is audited when it is over. ${how}` : `This is what the run itself says at its end. ${how}`;
+  return verdict()
+    ? `This is what the run itself says at its end. ${how}` : `A run is audited when it is over. ${how}`;
 }
 
 function auditParts(audit) {

@@ -30,6 +30,7 @@ function drawMap() {
   pen.clearRect(0, 0, canvas.width, canvas.height);
   drawGround();
   AGENTS.forEach(drawTrail);
+  drawAhead();
   drawPlaces();
   drawLinks();
   drawReach();
@@ -75,6 +76,24 @@ function drawTrail(agent, index) {
   pen.lineWidth = view.agent === index ? 3 : 2;
   pen.stroke();
   pen.globalAlpha = 1;
+}
+
+/** The way that the chosen agent has before it, to its next meeting. */
+function drawAhead() {
+  if (view.agent === null) return;
+  const agent = AGENTS[view.agent];
+  const place = placeAt(agent, view.time);
+  const corners = place ? wayAhead(agent, view.time) : [];
+  if (!corners.length) return;
+  pen.setLineDash([1, 5]);
+  pen.lineCap = "round";
+  pen.strokeStyle = agentColour(view.agent);
+  pen.lineWidth = 3;
+  pen.beginPath();
+  [place, ...corners].forEach(([x, y]) => pen.lineTo(toX(x), toY(y)));
+  pen.stroke();
+  pen.setLineDash([]);
+  pen.lineCap = "butt";
 }
 
 function drawPlaces() {

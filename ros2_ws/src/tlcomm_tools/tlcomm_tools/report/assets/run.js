@@ -50,6 +50,24 @@ function wayBetween(agent, start, end) {
   return way.filter(Boolean);
 }
 
+// Nearer than that, a corner has been passed.
+const AT_CORNER_M = 0.05;
+
+/** The corners that an agent had before it, as it had agreed. */
+function wayAhead(agent, time) {
+  const { times_s: times, way, first } = agent.ahead;
+  const row = lastUpTo(times, time);
+  if (row < 0) return [];
+  const corners = agent.ways[way[row]].slice(first[row]);
+  // Rows come every two seconds; what was driven since is left out.
+  let passed = 0;
+  for (const [x, y] of wayBetween(agent, times[row], time)) {
+    const next = corners[passed];
+    if (next && Math.hypot(next[0] - x, next[1] - y) < AT_CORNER_M) passed += 1;
+  }
+  return corners.slice(passed);
+}
+
 const spanAt = (agent, time) =>
   agent.spans.find((span) => span.start_s <= time && time < span.end_s);
 
