@@ -1,5 +1,6 @@
 """Tests of ``tlcomm_tools.bag.compression``, also with other people's readers."""
 
+import tracemalloc
 from pathlib import Path
 
 import lz4.frame  # type: ignore[import-untyped]
@@ -70,14 +71,20 @@ def test_no_more_is_unpacked_than_a_chunk_says(compression: Compression, told: i
         decompress(packed, compression.tag, told)
 
 
-def test_a_small_file_doesnt_fill_the_memory() -> None:
+@pytest.mark.parametrize("tells_size", [False, True])
+def test_a_small_file_doesnt_fill_the_memory(tells_size: bool) -> None:
     """Frames that unpack to a thousand times as much are stopped at what the chunk says."""
+    much = bytes(10**7)
     for tag, packed in (
-        ("lz4", lz4.frame.compress(bytes(10**7), store_size=False)),
-        ("zstd", zstandard.ZstdCompressor(write_content_size=False).compress(bytes(10**7))),
+        ("lz4", lz4.frame.compress(much, store_size=tells_size)),
+        ("zstd", zstandard.ZstdCompressor(write_content_size=tells_size).compress(much)),
     ):
+        tracemalloc.start()
         with pytest.raises(DECODING_ERRORS):
             decompress(packed, tag, 10)
+        _, peak = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+        assert peak < len(much) // 10, tag
 
 
 def test_an_unknown_way_is_refused() -> None:

@@ -69,7 +69,8 @@ def decompress(data: bytes, tag: str, size: int) -> bytes:
     if size > _MOST:
         raise ValueError(f"a chunk that says it has {size} bytes")
     if tag == Compression.ZSTD.tag:
-        unpacked = zstandard.decompress(data, max_output_size=size)
+        # At once it would unpack as much as the data say of themselves, whatever the limit.
+        unpacked = zstandard.ZstdDecompressor().stream_reader(data).read(size + 1)
     elif tag == Compression.LZ4.tag:
         unpacked = lz4.frame.LZ4FrameDecompressor().decompress(data, max_length=size + 1)
     elif tag == Compression.NONE.tag:
