@@ -4,7 +4,7 @@ import pytest
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
-from tlcomm_tools.bag.stamps import stamp_reader
+from tlcomm_tools.bag.stamps import first_stamp_ns, stamp_reader
 
 STAMP_NS = 7_000_000_009
 KIND = "other/msg/Word"
@@ -29,3 +29,10 @@ def test_a_stamp_is_read_wherever_it_is(definition: str, little_endian: bool) ->
     word = store.types[KIND](header=header, word="over")
     data = bytes(store.serialize_cdr(word, KIND, little_endian=little_endian))
     assert stamp_reader(store, KIND)(data) == STAMP_NS
+
+
+@pytest.mark.parametrize("size", [0, 3, 11])
+def test_what_is_too_short_has_no_stamp(size: int) -> None:
+    """Whoever sent it."""
+    with pytest.raises(ValueError, match=f"{size} bytes are no message with a stamp"):
+        first_stamp_ns(bytes(size))

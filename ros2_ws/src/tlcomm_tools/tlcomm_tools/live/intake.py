@@ -7,7 +7,6 @@
 """
 
 import contextlib
-import struct
 from collections.abc import Callable, Sequence
 from typing import Final
 
@@ -16,10 +15,10 @@ from rosbags.typesys.store import Typestore
 
 from tlcomm_core.protocol.messages import BestResponse
 from tlcomm_core.scenario.model import Scenario
-from tlcomm_core.units import NANOSECONDS_PER_SECOND
 from tlcomm_core.wire.fields import WireError
 from tlcomm_core.wire.team_messages import decode_message
 from tlcomm_tools import wire
+from tlcomm_tools.bag.stamps import first_stamp_ns
 from tlcomm_tools.bag.topics import Topic, mirror_topics, recorded_topics, split_topic
 from tlcomm_tools.live.document import LiveDocument
 from tlcomm_tools.report.plans import PLAN_TYPE, read_corners
@@ -41,9 +40,6 @@ _SHOWN: Final = frozenset(
         "plan",
     }
 )
-# Every recorded type begins with a stamp, behind the four bytes of the encapsulation.
-_STAMP: Final = struct.Struct("<iI")
-_STAMP_OFFSET: Final = 4
 
 _Taker = Callable[[wire.DecodedMessage, str], None]
 
@@ -57,10 +53,10 @@ def shown_topics(scenario: Scenario) -> tuple[Topic, ...]:
 
 def read_stamp(data: bytes) -> int:
     """Return when a message was said (ns); 0 if there is no stamp."""
-    if len(data) < _STAMP_OFFSET + _STAMP.size:
+    try:
+        return first_stamp_ns(data)
+    except ValueError:
         return 0
-    seconds, nanoseconds = _STAMP.unpack_from(data, _STAMP_OFFSET)
-    return int(seconds * NANOSECONDS_PER_SECOND + nanoseconds)
 
 
 class Intake:

@@ -18,7 +18,6 @@ records them beside the rest.
 """
 
 import signal
-import struct
 import time
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -38,10 +37,10 @@ from rclpy.signals import SignalHandlerOptions
 
 from tlcomm_core.method import Method
 from tlcomm_core.scenario.model import Scenario
-from tlcomm_core.units import NANOSECONDS_PER_SECOND
 from tlcomm_msgs.msg import Tick, TickReply
 from tlcomm_tools.bag.compression import DEFAULT, Compression
 from tlcomm_tools.bag.definitions import load_typestore, read_definition
+from tlcomm_tools.bag.stamps import first_stamp_ns
 from tlcomm_tools.bag.topics import Topic, recorded_topics
 from tlcomm_tools.bag.writer import BagWriter
 from tlcomm_tools.mirror.mirror import Mirror
@@ -62,9 +61,6 @@ _PATIENCE_S = 7.0
 # How long the end waits for what is under way, and after how many silent timers it waits no more.
 _DRAIN_S = 1.5
 _SILENT_PERIODS = 3
-# Every recorded type begins with a stamp, behind the four bytes of the encapsulation.
-_STAMP = struct.Struct("<iI")
-_STAMP_OFFSET = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -266,11 +262,12 @@ class Recorder(Node):
         )
 
     def _take(self, number: int, data: bytes) -> None:
-        if len(data) < _STAMP_OFFSET + _STAMP.size:
-            self.get_logger().warning(f"ignored: {len(data)} bytes are no message with a stamp")
+        try:
+            stamp_ns = first_stamp_ns(data)
+        except ValueError as error:
+            self.get_logger().warning(f"ignored: {error}")
             return
-        seconds, nanoseconds = _STAMP.unpack_from(data, _STAMP_OFFSET)
-        self._backlog.take(seconds * NANOSECONDS_PER_SECOND + nanoseconds, number, data)
+        self._backlog.take(stamp_ns, number, data)
         self._silent_periods = 0
         self._is_running = True
         if self._tick is not None:
