@@ -9,6 +9,7 @@ import pytest
 
 from support.gate import gate
 from support.measuring_corridor import measuring_corridor
+from support.processes import processes_of
 from tlcomm_core.agent.channel import LOST
 from tlcomm_core.errors import InputError
 from tlcomm_core.game.solver import DEFAULT
@@ -69,32 +70,16 @@ def run_and_strike(out: Path, strike: Callable[[], None]) -> RunReport:
     return run_mission(options_of(out, 10_000), strike_once)
 
 
-def processes(out: Path) -> dict[int, str]:
-    """Return command lines of the living processes of the run in a folder, by process id."""
-    found = {}
-    for path in Path("/proc").glob("[0-9]*"):
-        try:
-            words = (path / "cmdline").read_text(encoding="utf-8", errors="replace").split("\0")
-            state = (path / "stat").read_text(encoding="ascii").rpartition(")")[2].split()[0]
-        except (OSError, UnicodeDecodeError):
-            continue
-        if "tlcomm_tools.runtime.process" in words and state != "Z":
-            line = " ".join(words)
-            if str(out) in line:
-                found[int(path.name)] = line
-    return found
-
-
 def shared_segments(out: Path) -> list[str]:
     """Return the shared memory that the run's processes have mapped, and could leave behind."""
-    maps = [Path(f"/proc/{pid}/maps").read_text(encoding="utf-8") for pid in processes(out)]
+    maps = [Path(f"/proc/{pid}/maps").read_text(encoding="utf-8") for pid in processes_of(out)]
     return [line for text in maps for line in text.splitlines() if SHARED_MEMORY in line]
 
 
 def process_of(out: Path, name: str) -> int:
     """Return the process id of an agent, the sim or the recorder."""
     role = f"process {name} " if name in {"sim", "recorder"} else f"agent --name {name} "
-    (pid,) = [pid for pid, line in processes(out).items() if role in line]
+    (pid,) = processes_of(out, role)
     return pid
 
 
@@ -145,7 +130,7 @@ def test_lock_step_run_equals_the_simulation(
     assert bool(recorded.estimates) is (scenario.field is not None)
     assert verify(read_recording(report.folder.bag)).difference is None
     assert segments == []
-    assert processes(tmp_path) == {}
+    assert processes_of(tmp_path) == []
 
 
 def test_lock_step_run_over_a_bad_radio_equals_the_simulation(tmp_path: Path) -> None:
@@ -192,7 +177,7 @@ def test_killed_process_is_named_and_the_bag_readable(tmp_path: Path, victim: st
     recorded = read_run(report.folder.bag).records
     assert recorded.odometry
     assert recorded.strategies
-    assert processes(out) == {}
+    assert processes_of(out) == []
 
 
 def test_interrupted_run_leaves_nobody_and_a_whole_bag(tmp_path: Path) -> None:
@@ -203,6 +188,6 @@ def test_interrupted_run_leaves_nobody_and_a_whole_bag(tmp_path: Path) -> None:
     recorded = read_run(report.folder.bag)
     assert not recorded.damage
     assert recorded.records.odometry
-    assert processes(out) == {}
+    assert processes_of(out) == []
     for log in report.folder.logs.glob("*.log"):
         assert "Traceback" not in log.read_text(encoding="utf-8")

@@ -4,7 +4,6 @@ import json
 import os
 import queue
 import signal
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ from typing import Any
 import pytest
 
 from support.browser import Browser, why_missing
+from support.processes import processes_of
 from tlcomm_core.game.solver import DEFAULT
 from tlcomm_core.method import Method
 from tlcomm_core.mission import Mission
@@ -26,8 +26,10 @@ from tlcomm_tools.run import RunOptions, run_mission
 from tlcomm_tools.status import Status
 
 SCENARIO = load_scenario(Path(__file__).parents[2] / "scenarios" / "corridor.yaml")
-ROUNDS, FEW = 12, 4
-LIMIT_S = 120.0
+# Many, so that the run goes on while a browser on a slow machine looks.
+ROUNDS, FEW = 24, 4
+LIMIT_S = 300.0
+VIEW = "tlcomm_tools.runtime.view"
 ADDRESS = "live view at "
 
 
@@ -52,18 +54,6 @@ def expected_events(rounds: int = ROUNDS) -> str:
     return "".join(f"{line}\n" for line in event_log(left.records))
 
 
-def views(out: Path) -> Iterator[int]:
-    """Yield the process ids of living views of the run in a folder."""
-    for path in Path("/proc").glob("[0-9]*"):
-        try:
-            words = (path / "cmdline").read_text(encoding="utf-8", errors="replace").split("\0")
-            state = (path / "stat").read_text(encoding="ascii").rpartition(")")[2].split()[0]
-        except OSError:
-            continue
-        if "tlcomm_tools.runtime.view" in words and str(out) in " ".join(words) and state != "Z":
-            yield int(path.name)
-
-
 @pytest.mark.skipif(bool(why_missing()), reason=why_missing() or "there is a browser")
 def test_a_run_is_looked_on(tmp_path: Path) -> None:
     """Agents move, a round tells of its meeting, the verdict is the run's; nothing is complained
@@ -86,16 +76,16 @@ def test_a_run_is_looked_on(tmp_path: Path) -> None:
         assert browser.text("#round h3") == "Meeting 1"
         assert "it began at" in browser.text("#round")
         start_s = browser.evaluate("startOf(ROUNDS[0])")
+        report = running.result(LIMIT_S)
         browser.wait_for("state === ''")
         assert browser.evaluate("view.time") == start_s
-        report = running.result(LIMIT_S)
         assert browser.text("#verdict") == "verdict: ok"
         known = browser.evaluate("DATA")
         assert browser.complaints() == []
     assert report.status is Status.FINE, report
     assert report.folder.events.read_text("utf-8") == expected_events()
     require_same(known, report_document(SCENARIO, Method.TEAM, read_run(out)))
-    assert list(views(out)) == []
+    assert processes_of(out, VIEW) == []
     assert told.empty()
 
 
@@ -119,26 +109,26 @@ def require_same(known: dict[str, Any], expected: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("number", "last"),
-    [
-        (signal.SIGKILL, "the live view has ended, the run goes on"),
-        (signal.SIGSTOP, "live view at "),
-    ],
+    ("number", "words"),
+    [(signal.SIGKILL, ["the live view has ended, the run goes on"]), (signal.SIGSTOP, [])],
 )
-def test_a_view_may_die_or_hang(tmp_path: Path, number: signal.Signals, last: str) -> None:
+def test_a_view_may_die_or_hang(tmp_path: Path, number: signal.Signals, words: list[str]) -> None:
     """The run goes on, and ends as it does without a view; of its death the user is told."""
-    out, told = tmp_path / "run", []
-    struck = False
+    out, told = tmp_path / "run", queue.SimpleQueue[str]()
+    begins = ["ROS domain ", ADDRESS, *words]
+    lines: list[str] = []
 
     def strike(_: float, meetings_ended: int) -> None:
-        nonlocal struck
-        if meetings_ended > 1 and not struck:
-            struck = True
-            (view,) = views(out)
+        if meetings_ended > 1 and not lines:
+            lines.extend(told.get(timeout=LIMIT_S) for _ in range(2))
+            (view,) = processes_of(out, VIEW)
             os.kill(view, number)
+            lines.extend(told.get(timeout=LIMIT_S) for _ in words)
 
-    report = run_mission(options_of(out, FEW), strike, told.append)
+    report = run_mission(options_of(out, FEW), strike, told.put)
     assert report.status is Status.FINE, report
     assert report.folder.events.read_text("utf-8") == expected_events(FEW)
-    assert list(views(out)) == []
-    assert told[-1].startswith(last)
+    assert processes_of(out, VIEW) == []
+    assert told.empty()
+    assert len(lines) == len(begins)
+    assert all(line.startswith(begin) for line, begin in zip(lines, begins, strict=True)), lines

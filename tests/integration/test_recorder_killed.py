@@ -3,7 +3,6 @@
 import os
 import signal
 import subprocess
-import sys
 import time
 from collections import deque
 from pathlib import Path
@@ -12,6 +11,8 @@ import pytest
 from mcap.reader import make_reader
 from rosbags.highlevel import AnyReader
 
+from support.command import CORRIDOR, command
+from support.processes import processes_of
 from tlcomm_core.mission import Mission
 from tlcomm_core.records import event_log
 from tlcomm_core.scenario.loader import load_scenario
@@ -25,7 +26,6 @@ from tlcomm_tools.bag.repair import inspect
 
 pytest.importorskip("rclpy", reason="needs ROS 2: run by scripts/test")
 
-SCENARIO = Path(__file__).parents[2] / "scenarios" / "corridor.yaml"
 # How far a run goes before its recorder is killed (s), at which pace, with what compression.
 KILLS = [
     (30.0, "lockstep", Compression.ZSTD),
@@ -37,29 +37,6 @@ KILLS = [
 _LOST_S = 1.0
 
 
-def command(*arguments: str) -> list[str]:
-    """Return the command line of a verb."""
-    return [sys.executable, "-m", "tlcomm_tools", *arguments]
-
-
-def recorder_of(folder: Path) -> int:
-    """Return the recorder's process, by its command line."""
-    bag = os.fsencode(folder / "bag")
-    (pid,) = (
-        int(path.parent.name)
-        for path in Path("/proc").glob("[0-9]*/cmdline")
-        if {b"recorder", bag} <= {*_words(path)}
-    )
-    return pid
-
-
-def _words(path: Path) -> list[bytes]:
-    try:
-        return path.read_bytes().split(b"\0")
-    except (FileNotFoundError, ProcessLookupError):
-        return []
-
-
 def kill_recorder(folder: Path, at_s: float, pace: str, compression: Compression) -> float:
     """Run, and kill the recorder at a simulated time.
 
@@ -68,7 +45,7 @@ def kill_recorder(folder: Path, at_s: float, pace: str, compression: Compression
     """
     arguments = ("--until", "1e6", "--pace", pace, "--compression", compression)
     process = subprocess.Popen(
-        command("run", str(SCENARIO), *arguments, "--out", str(folder)),
+        command("run", CORRIDOR, *arguments, "--out", str(folder)),
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
         text=True,
@@ -82,7 +59,8 @@ def kill_recorder(folder: Path, at_s: float, pace: str, compression: Compression
                 reached.append((time.monotonic(), sim_s))
                 if sim_s >= at_s:
                     break
-        os.kill(recorder_of(folder), signal.SIGKILL)
+        (recorder,) = processes_of(folder, "process recorder")
+        os.kill(recorder, signal.SIGKILL)
         killed_s = time.monotonic()
         process.communicate(timeout=60)
     return max(sim_s for wall_s, sim_s in reached if wall_s <= killed_s - _LOST_S)
@@ -102,7 +80,7 @@ def last_times_ns(path: Path) -> dict[str, int]:
 def assert_whole_until_its_end(bag: Path) -> None:
     """Everything that was decided up to the last time is there, as in the other harness."""
     run = read_run(bag)
-    site = Site.from_scenario(load_scenario(SCENARIO))
+    site = Site.from_scenario(load_scenario(CORRIDOR))
     whole = simulate(Mission(site, 0, None, seconds(run.end_ns + 1))).records
     assert list(event_log(run.records)) == list(event_log(whole))
 

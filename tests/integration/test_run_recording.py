@@ -12,6 +12,7 @@ import pytest
 from rosbags.highlevel import AnyReader
 
 from support.command import CORRIDOR, command
+from support.processes import processes_of
 from tlcomm_core.errors import InputError
 from tlcomm_core.scenario.loader import loads
 from tlcomm_tools.audit.findings import audit_run
@@ -21,21 +22,6 @@ from tlcomm_tools.bag.topics import mirror_topics, recorded_topics
 pytest.importorskip("rclpy", reason="needs ROS 2: run by scripts/test")
 
 AGENTS = ("west", "carrier", "east")
-
-
-def processes_of(folder: Path, role: str = "") -> list[int]:
-    """Return the processes of a run that still live, by their command lines."""
-    found = []
-    for path in Path("/proc").glob("[0-9]*/cmdline"):
-        try:
-            words = path.read_bytes().split(b"\0")
-        except (FileNotFoundError, ProcessLookupError):
-            continue
-        if any(str(folder).encode() in word for word in words) and role.encode() in b" ".join(
-            words
-        ):
-            found.append(int(path.parent.name))
-    return found
 
 
 def start_run(folder: Path) -> "subprocess.Popen[str]":

@@ -9,6 +9,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Origin
 
+from tlcomm_tools.live import server
 from tlcomm_tools.live.audience import Audience
 from tlcomm_tools.live.gate import Asked, Gate
 from tlcomm_tools.live.server import Served, Server
@@ -137,8 +138,10 @@ def test_nonsense_is_survived() -> None:
     serve(use)
 
 
-def test_the_feed_tells_what_is_new() -> None:
-    """Everything, then the news; at the end it is closed in good order."""
+def test_the_feed_tells_what_is_new(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Everything, then the news; at the end it is closed in good order, if there is time for it."""
+    monkeypatch.setattr(server, "_FAREWELL_S", LIMIT_S)
+    monkeypatch.setattr(server, "_CLOSING_S", LIMIT_S)
     texts: list[str | bytes] = []
 
     async def run() -> None:
