@@ -21,7 +21,7 @@ from typing import Final
 from tlcomm_core.errors import TlcommError
 from tlcomm_core.game.solver import DEFAULT
 from tlcomm_core.method import Method
-from tlcomm_core.pace import Pace
+from tlcomm_core.pace import LOCK_STEP
 from tlcomm_core.scenario.model import Scenario
 from tlcomm_tools.folder import RunFolder
 from tlcomm_tools.run import RunOptions, launch
@@ -99,7 +99,7 @@ def measure_recording(scenario: Scenario, rounds: int, repeats: int) -> Recordin
         TlcommError: a run broke.
         KeyboardInterrupt: the user has had enough.
     """
-    options = RunOptions(scenario, Method.TEAM, DEFAULT, 0, Pace(None), rounds, None, None)
+    options = RunOptions(scenario, Method.TEAM, DEFAULT, 0, LOCK_STEP, rounds, None, None)
     pairs = []
     for number in range(repeats):
         order = (True, False) if number % 2 == 0 else (False, True)

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 from tlcomm_core.mission import Mission
-from tlcomm_core.pace import Pace
+from tlcomm_core.pace import LOCK_STEP
 from tlcomm_core.result import RunFacts, result_document
 from tlcomm_core.simulation import Simulated, simulate
 from tlcomm_core.units import seconds
@@ -35,7 +35,7 @@ def simulate_timed(
         method=mission.method,
         solver=mission.solver.name,
         seed=mission.seed,
-        pace=str(Pace(None)),
+        pace=str(LOCK_STEP),
         sim_s=seconds(left.sim_ns),
         wall_s=time.perf_counter() - begun_s,
     )

@@ -26,6 +26,8 @@ __all__ = ["LATE_S", "EquilibriumFinding", "audit_equilibria"]
 
 # Rounding of sums of times.
 _SLACK_S: Final = 1e-6
+# As near as this to a cell's middle is in it.
+_SAME_M: Final = 1e-6
 _SPEED_SLACK: Final = 1e-9
 LATE_S: Final = 2.0 * 1.2 * 0.05
 """What an agent that runs freely reckons for a turn and a straight: each 1.2 periods of 50 ms."""
@@ -218,7 +220,7 @@ def _flaw(scenario: Scenario, offer: MemberOffer) -> str:
 def _is_middle(ground: Ground, own: Strategy, place: int | None) -> bool:
     if place is None:
         return False
-    return math.dist(ground.cells.centres_m[place], (own.x_m, own.y_m)) <= _SLACK_S
+    return math.dist(ground.cells.centres_m[place], (own.x_m, own.y_m)) <= _SAME_M
 
 
 def _mistimed(own: Strategy, candidates: Candidates, row: int, place: int) -> Iterator[str]:
