@@ -149,12 +149,22 @@ def test_what_is_no_run_is_refused(
     assert complaint in refusal(capsys, *VERBS[verb], "bag")
 
 
-def test_metadata_of_any_depth_is_passed_over(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize(
+    "metadata",
+    [
+        "[" * 100_000,
+        "on: 2001-99-99",
+        f"count: {'9' * 5000}",
+        f"rosbag2_bagfile_information: {{relative_file_paths: [{'long' * 100}.mcap]}}",
+    ],
+    ids=["deep", "date", "number", "name"],
+)
+def test_metadata_of_any_kind_are_passed_over(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], metadata: str
 ) -> None:
     """What isn't YAML that anybody writes says nothing of the bag; a repair writes it anew."""
     write_bag(tmp_path / "bag", hand_made_records())
-    (tmp_path / "bag" / "metadata.yaml").write_text("[" * 100_000, "utf-8")
+    (tmp_path / "bag" / "metadata.yaml").write_text(metadata, "utf-8")
     assert run(capsys, "check", "bag")[0] == 0
     status, out, _ = run(capsys, "repair", "bag", "--json")
     assert (status, json.loads(out)["flaw"]) == (

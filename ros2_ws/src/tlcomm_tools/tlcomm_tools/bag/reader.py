@@ -118,9 +118,10 @@ def _listed_files(folder: Path) -> tuple[Path, ...]:
         document = yaml.load(text, _Loader)  # noqa: S506
         names = document["rosbag2_bagfile_information"]["relative_file_paths"]
         paths = tuple(folder / name for name in names if str(name).endswith(".mcap"))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError, KeyError, TypeError):
+        return paths if all(path.is_file() for path in paths) else ()
+    except (OSError, yaml.YAMLError, ValueError, KeyError, TypeError):
+        # A value error: no text, or a date or a number that can't be.
         return ()
-    return paths if all(path.is_file() for path in paths) else ()
 
 
 def _is_nested_deeply(text: str) -> bool:

@@ -132,7 +132,7 @@ def _is_described(path: Path, count: int) -> bool:
         text = path.with_name("metadata.yaml").read_text("utf-8")
         told = yaml.safe_load(text)["rosbag2_bagfile_information"]
         return path.name in told["relative_file_paths"] and told["message_count"] == count
-    except (OSError, UnicodeDecodeError, yaml.YAMLError, RecursionError, KeyError, TypeError):
+    except (OSError, yaml.YAMLError, RecursionError, ValueError, KeyError, TypeError):
         return False
 
 
@@ -336,7 +336,7 @@ def _describe_topics(container: Container, copy: _Copy) -> list[dict[str, Any]]:
 def _read_profiles(text: str) -> list[Any]:
     try:
         profiles = yaml.safe_load(text)
-    except (yaml.YAMLError, RecursionError):
+    except (yaml.YAMLError, RecursionError, ValueError):
         return []
     return profiles if isinstance(profiles, list) else []
 
