@@ -14,6 +14,7 @@ function setUpFindings() {
   if (DATA.feed) byId("source").textContent = "Everything on this page comes from the run's messages.";
   drawFindings();
   onGrowth(() => {
+    drawSubtitle();
     drawVerdict();
     if (!isLive() || growths % GROWTHS_TOLD === 1) drawFindings();
   });
