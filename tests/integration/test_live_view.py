@@ -1,11 +1,13 @@
 """A run with its live view: in a real browser, and with the view killed."""
 
+import json
 import os
 import queue
 import signal
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -18,16 +20,18 @@ from tlcomm_core.records import event_log
 from tlcomm_core.scenario.loader import load_scenario
 from tlcomm_core.scenario.site import Site
 from tlcomm_core.simulation import simulate
+from tlcomm_tools.bag.reader import read_run
+from tlcomm_tools.report.document import report_document
 from tlcomm_tools.run import RunOptions, run_mission
 from tlcomm_tools.status import Status
 
 SCENARIO = load_scenario(Path(__file__).parents[2] / "scenarios" / "corridor.yaml")
-ROUNDS = 12
+ROUNDS, FEW = 12, 4
 LIMIT_S = 120.0
 ADDRESS = "live view at "
 
 
-def options_of(out: Path) -> RunOptions:
+def options_of(out: Path, rounds: int = ROUNDS) -> RunOptions:
     """Return a run in lock step, looked on."""
     return RunOptions(
         scenario=SCENARIO,
@@ -35,16 +39,16 @@ def options_of(out: Path) -> RunOptions:
         solver=DEFAULT,
         seed=0,
         pace=parse_pace("lockstep"),
-        rounds=ROUNDS,
+        rounds=rounds,
         until_s=None,
         out=out,
         has_view=True,
     )
 
 
-def expected_events() -> str:
+def expected_events(rounds: int = ROUNDS) -> str:
     """Return the event log of the same run without processes, and so without a view."""
-    left = simulate(Mission(Site.from_scenario(SCENARIO), 0, ROUNDS, None))
+    left = simulate(Mission(Site.from_scenario(SCENARIO), 0, rounds, None))
     return "".join(f"{line}\n" for line in event_log(left.records))
 
 
@@ -86,16 +90,43 @@ def test_a_run_is_looked_on(tmp_path: Path) -> None:
         assert browser.evaluate("view.time") == start_s
         report = running.result(LIMIT_S)
         assert browser.text("#verdict") == "verdict: ok"
-        assert browser.evaluate("ROUNDS.filter((own) => own.started_s !== null).length") == ROUNDS
+        known = browser.evaluate("DATA")
         assert browser.complaints() == []
     assert report.status is Status.FINE, report
     assert report.folder.events.read_text("utf-8") == expected_events()
+    require_same(known, report_document(SCENARIO, Method.TEAM, read_run(out)))
     assert list(views(out)) == []
     assert told.empty()
 
 
-def test_a_view_that_is_killed_is_told_of(tmp_path: Path) -> None:
-    """The run goes on, and ends as it does without a view."""
+def ended_spans(agent: dict[str, Any]) -> list[tuple[Any, ...]]:
+    """Return what an agent did, but for what it did at the end."""
+    names = ("start_s", "end_s", "activity", "action")
+    return sorted(tuple(span[name] for name in names) for span in agent["spans"])[:-2]
+
+
+def require_same(known: dict[str, Any], expected: dict[str, Any]) -> None:
+    """Require that a page knows what a report knows of all that is said once."""
+    expected = json.loads(json.dumps(expected))
+    assert len(known["rounds"]) > ROUNDS
+    for mine, theirs in zip(known["rounds"], expected["rounds"], strict=True):
+        assert {**mine, "moves": None} == {**theirs, "moves": None}
+    for mine, theirs in zip(known["agents"], expected["agents"], strict=True):
+        assert mine["steps"] == theirs["steps"]
+        assert mine["satisfied_s"] == theirs["satisfied_s"]
+        assert ended_spans(mine) == ended_spans(theirs)
+    assert known["windows"] == expected["windows"]
+
+
+@pytest.mark.parametrize(
+    ("number", "last"),
+    [
+        (signal.SIGKILL, "the live view has ended, the run goes on"),
+        (signal.SIGSTOP, "live view at "),
+    ],
+)
+def test_a_view_may_die_or_hang(tmp_path: Path, number: signal.Signals, last: str) -> None:
+    """The run goes on, and ends as it does without a view; of its death the user is told."""
     out, told = tmp_path / "run", []
     struck = False
 
@@ -104,9 +135,10 @@ def test_a_view_that_is_killed_is_told_of(tmp_path: Path) -> None:
         if meetings_ended > 1 and not struck:
             struck = True
             (view,) = views(out)
-            os.kill(view, signal.SIGKILL)
+            os.kill(view, number)
 
-    report = run_mission(options_of(out), strike, told.append)
+    report = run_mission(options_of(out, FEW), strike, told.append)
     assert report.status is Status.FINE, report
-    assert report.folder.events.read_text("utf-8") == expected_events()
-    assert told[-1].startswith("the live view has ended, the run goes on")
+    assert report.folder.events.read_text("utf-8") == expected_events(FEW)
+    assert list(views(out)) == []
+    assert told[-1].startswith(last)

@@ -2,11 +2,13 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from support.browser import Browser, why_missing
-from support.hand_made_run import hand_made_records, hand_made_scenario, write_bag
+from support.command import run
+from support.hand_made_run import hand_made_records, hand_made_scenario, task, write_bag
 from support.planned_bag import write_planned_bag
 from tlcomm_core.agent.actions import TaskEventKind
 from tlcomm_core.method import Method
@@ -22,6 +24,11 @@ pytestmark = pytest.mark.skipif(bool(why_missing()), reason=why_missing() or "th
 DESKTOP, PHONE = (1280, 900), (390, 844)
 HIT = "document.title='hit'"
 ATTACK = f'</script><img src=x onerror="{HIT}"><script>{HIT}</script>'
+# It ends a line of JavaScript, also inside of a text.
+TEXT = f"{ATTACK}\u2028{HIT}"
+ACTIONS = (TaskEventKind.ACTION_STARTED, TaskEventKind.ACTION_FINISHED)
+# Of a bag that has markup in all its texts: how often at least it is on the page as text.
+SHOWN = 5
 RIGHT, SPACE = "\ue014", " "
 
 
@@ -143,6 +150,42 @@ def test_a_name_with_markup_is_a_name(tmp_path: Path, browser: Browser) -> None:
     open_page(browser, write_page(tmp_path, hand_made_records(), ATTACK))
     browser.click("#agents button")
     assert browser.text("#agent h3") == ATTACK
+    assert browser.evaluate("document.title") == "line, method team"
+    assert browser.evaluate("document.querySelectorAll('img').length") == 0
+    assert browser.complaints() == []
+
+
+def spoil(topic: str, message: Any) -> None:  # noqa: ANN401 (made by a decoder)
+    """Put markup wherever a message of a run has text."""
+    suffix = topic.rpartition("/")[2]
+    if suffix == "task_event" and message.kind == TaskEventKind.FAULT:
+        message.region = message.action = message.detail = TEXT
+    elif suffix == "task_event" and message.kind == TaskEventKind.MEETING_REACHED:
+        message.agent = TEXT
+    elif topic == "/west/task_event" and message.kind in ACTIONS:
+        message.region = message.action = TEXT
+    elif topic == "/east/team_strategy" and message.round == 1:
+        message.strategies[0].agent = TEXT
+    elif suffix == "undelivered":
+        message.reasons = [TEXT for _ in message.reasons]
+
+
+def test_a_bag_with_markup_is_a_bag(
+    tmp_path: Path, browser: Browser, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Regions, actions, faults, strangers, reasons, solver and seed: all of it is shown as text."""
+    records = hand_made_records()
+    records.tasks.append(task(23.5, "west", TaskEventKind.FAULT))
+    write_bag(tmp_path / "bag", records, change=spoil, solver=TEXT, seed=TEXT)
+    page = tmp_path / "page.html"
+    status, _, _ = run(capsys, "report", str(tmp_path / "bag"), "-o", str(page), "--json")
+    assert status == 0
+    open_page(browser, page.as_uri())
+    browser.click("#agents button")
+    browser.click("#rounds button")
+    text = browser.evaluate("document.body.textContent")
+    assert f"{TEXT!r} is no agent of the scenario" in browser.text("#violations")
+    assert text.count(TEXT) >= SHOWN
     assert browser.evaluate("document.title") == "line, method team"
     assert browser.evaluate("document.querySelectorAll('img').length") == 0
     assert browser.complaints() == []

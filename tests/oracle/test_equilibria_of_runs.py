@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from support.changing_hall import changing_hall
-from tlcomm_core.game.solver import SOLVERS
+from tlcomm_core.game.solver import BEST_RESPONSE, SOLVERS
 from tlcomm_core.method import Method
 from tlcomm_core.mission import Mission
 from tlcomm_core.scenario.generator import random_scenario
@@ -103,3 +103,16 @@ def test_a_team_that_skips_windows() -> None:
     offered = {own.round for own in left.records.offers}
     assert {own.strategy.round for own in left.records.strategies} - offered
     assert_equilibria(scenario, Method.TEAM, "coalition", windows=6)
+
+
+def test_who_keeps_its_place_would_gain_by_another() -> None:
+    """Which is no flaw of a static team, but would be of one that chooses places."""
+    scenario = random_team(1, {})
+    until_s = 3.5 * scenario.communication.period_s
+    site = Site.from_scenario(scenario)
+    left = simulate(Mission(site, 1, None, until_s, BEST_RESPONSE, Method.STATIC))
+    found = [
+        audit_run(scenario, method, left.records, left.sim_ns).checks["equilibria"]
+        for method in (Method.STATIC, Method.TEAM)
+    ]
+    assert (found[0], len(found[1]) > 0) == ((), True)

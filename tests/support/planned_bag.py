@@ -1,16 +1,13 @@
 """The run made by hand, with ways ahead as viewers are shown them.
 
 ``PLANS``              what is ahead of the agent "east", by time (s)
-``make_path``          a ``nav_msgs/Path`` from the origin by some corners
-``serialize_path``     its bytes
+``encode_path``        a ``nav_msgs/Path`` from the origin by some corners, in CDR
 ``write_planned_bag``  a bag of it
 """
 
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
-
-from rosbags.typesys.stores import ros2_jazzy as ros
 
 from support.hand_made_run import (
     AGENTS,
@@ -26,10 +23,10 @@ from tlcomm_core.world.observation import Odometry
 from tlcomm_tools.bag.definitions import load_typestore, read_definition
 from tlcomm_tools.bag.topics import mirror_topics, recorded_topics
 from tlcomm_tools.bag.writer import BagWriter
-from tlcomm_tools.mirror.paths import make_plan
+from tlcomm_tools.mirror.paths import encode_plan
 from tlcomm_tools.mirror.way import Corner
 
-__all__ = ["PLANS", "make_path", "serialize_path", "write_planned_bag"]
+__all__ = ["PLANS", "encode_path", "write_planned_bag"]
 
 PLANS: Final[dict[float, list[tuple[float, float]]]] = {
     0.0: [],
@@ -43,15 +40,10 @@ PLANS: Final[dict[float, list[tuple[float, float]]]] = {
 _STORE: Final = load_typestore(SHARE)
 
 
-def make_path(corners: Sequence[tuple[float, float]], stamp_ns: int = 0) -> ros.nav_msgs__msg__Path:
+def encode_path(corners: Sequence[tuple[float, float]], stamp_ns: int = 0) -> bytes:
     """Return a way that begins at the origin."""
     here = Odometry(stamp_ns, "east", Pose(0.0, 0.0, 0.0), 0.0, 0.0)
-    return make_plan(here, [Corner(0, 0, Pose(x_m, y_m, 0.0)) for x_m, y_m in corners], stamp_ns)
-
-
-def serialize_path(path: ros.nav_msgs__msg__Path) -> bytes:
-    """Return a path's bytes."""
-    return bytes(_STORE.serialize_cdr(path, "nav_msgs/msg/Path"))
+    return encode_plan(here, [Corner(0, 0, Pose(x_m, y_m, 0.0)) for x_m, y_m in corners], stamp_ns)
 
 
 def write_planned_bag(folder: Path) -> Path:
@@ -61,7 +53,7 @@ def write_planned_bag(folder: Path) -> Path:
     rows = [*serialize_run(_STORE, hand_made_records())]
     for time_s, corners in PLANS.items():
         stamp_ns = nanoseconds(time_s)
-        rows.append(("/east/plan", stamp_ns, serialize_path(make_path(corners, stamp_ns))))
+        rows.append(("/east/plan", stamp_ns, encode_path(corners, stamp_ns)))
     numbers = {topic.name: number for number, topic in enumerate(topics)}
     notes = {"scenario": dumps(hand_made_scenario())}
     with BagWriter(folder, topics, definitions, notes) as writer:

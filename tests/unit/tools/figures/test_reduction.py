@@ -32,6 +32,17 @@ def test_a_way_keeps_its_bends_only() -> None:
     assert path.y_m == (0.0, 0.0, 0.0, 1.0)
 
 
+def test_a_jump_at_one_instant_is_kept() -> None:
+    """Both places are, and so is one that is too far for any rounding."""
+    samples = [
+        Odometry(nanoseconds(time_s), "west", Pose(x_m, 0.0, 0.0), 0.0, 0.0)
+        for time_s, x_m in ((0.0, 0.0), (1.0, 0.0), (1.0, 5.0), (2.0, 1e11), (3.0, 0.0))
+    ]
+    path = reduction.path(samples)
+    assert path is not None
+    assert path.x_m == (0.0, 0.0, 5.0, 1e11, 0.0)
+
+
 def test_who_never_moved_has_no_way() -> None:
     """Not even a place is known."""
     assert reduction.path([]).times_s == ()

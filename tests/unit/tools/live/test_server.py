@@ -149,13 +149,14 @@ def test_the_feed_tells_what_is_new() -> None:
                 texts.append(await connection.recv())
                 served.audience.tell("news")
                 texts.append(await connection.recv())
-                served.audience.tell("last")
+                for _ in range(10):
+                    served.audience.tell(LARGE)
                 reading = asyncio.create_task(_read(connection))
             texts.extend(await reading)
             assert connection.close_code == 1000
 
     asyncio.run(run())
-    assert texts == ["whole", "news", "last"]
+    assert texts == ["whole", "news", *[LARGE] * 10]
 
 
 async def _read(connection: ClientConnection) -> list[str | bytes]:

@@ -34,7 +34,7 @@ def test_other_recorders_profiles(profiles: str, expected: Quality) -> None:
     assert read_quality(profiles) == expected
 
 
-@pytest.mark.parametrize("profiles", ["[1]", "{", "7", "[{depth: many}]"])
+@pytest.mark.parametrize("profiles", ["[1]", "{", "7", "[{depth: many}]", "[" * 100_000])
 def test_nonsense_is_refused(profiles: str) -> None:
     """What is no list of profiles is quoted."""
     with pytest.raises(InputError, match="offered_qos_profiles can't be read"):

@@ -4,10 +4,13 @@ from pathlib import Path
 
 import pytest
 
-from support.planned_bag import PLANS, make_path, serialize_path, write_planned_bag
+from support.hand_made_run import SHARE
+from support.planned_bag import PLANS, encode_path, write_planned_bag
 from tlcomm_core.units import nanoseconds
-from tlcomm_tools.report.plans import Plans, read_corners, read_plans
+from tlcomm_tools.bag.definitions import load_typestore
+from tlcomm_tools.report.plans import PLAN_TYPE, Plans, read_corners, read_plans
 
+STORE = load_typestore(SHARE)
 WAY = [(1.0, 2.0), (3.0, 4.0), (5.0, 6.0)]
 
 
@@ -15,15 +18,15 @@ WAY = [(1.0, 2.0), (3.0, 4.0), (5.0, 6.0)]
 @pytest.mark.parametrize("count", range(4))
 def test_corners_are_read_as_they_were_written(count: int, frame: str) -> None:
     """Without the place where the agent is, whatever the frame is called."""
-    path = make_path(WAY[:count])
+    path = STORE.deserialize_cdr(encode_path(WAY[:count]), PLAN_TYPE)
     for header in (path.header, *(pose.header for pose in path.poses)):
         header.frame_id = frame
-    assert read_corners(serialize_path(path)) == WAY[:count]
+    assert read_corners(bytes(STORE.serialize_cdr(path, PLAN_TYPE))) == WAY[:count]
 
 
 def test_what_makes_no_sense_has_no_corners() -> None:
     """A message that was cut anywhere, a number too large, another byte order."""
-    data = serialize_path(make_path(WAY))
+    data = encode_path(WAY)
     for length in range(len(data)):
         assert read_corners(data[:length]) in ([], WAY)
     assert read_corners(b"\x00\x00\x00\x00" + data[4:]) == []

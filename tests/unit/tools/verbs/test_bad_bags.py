@@ -14,7 +14,7 @@ import pytest
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
-from support.command import refusal, run
+from support.command import CORRIDOR, refusal, run
 from support.hand_made_run import hand_made_records, write_bag
 from tlcomm_core.records import RunRecords
 
@@ -152,10 +152,28 @@ def test_what_is_no_run_is_refused(
 def test_metadata_of_any_depth_is_passed_over(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """What isn't YAML that anybody writes says nothing of the bag."""
+    """What isn't YAML that anybody writes says nothing of the bag; a repair writes it anew."""
     write_bag(tmp_path / "bag", hand_made_records())
     (tmp_path / "bag" / "metadata.yaml").write_text("[" * 100_000, "utf-8")
     assert run(capsys, "check", "bag")[0] == 0
+    status, out, _ = run(capsys, "repair", "bag", "--json")
+    assert (status, json.loads(out)["flaw"]) == (
+        0,
+        "metadata.yaml is missing or doesn't fit the file",
+    )
+
+
+def test_another_teams_scenario_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Both teams are named."""
+    write_bag(tmp_path / "bag", hand_made_records())
+    for verb in ("check", "report"):
+        complaint = refusal(capsys, *VERBS[verb], "bag", "--scenario", CORRIDOR)
+        assert complaint == (
+            "tlcomm: error: 'bag' is of the agents ['east', 'west'], "
+            "the scenario 'corridor' of ['west', 'carrier', 'east']\n"
+        )
 
 
 @dataclass(frozen=True)
@@ -246,7 +264,7 @@ PART = ("strategies", 0)
         (
             flaw("/west/team_strategy", *PART, "agent", to=HTML),
             "records",
-            f"west: 1.000 s: round 1: strategies of {[HTML, 'west']!r}, not of agents of",
+            f"west: 1.000 s: round 1: strategies of {[HTML, 'west']!r}, not of one agent",
         ),
         (
             flaw("/west/team_strategy", "strategies", to=[]),
@@ -254,9 +272,14 @@ PART = ("strategies", 0)
             "west: 1.000 s: round 1: strategies of nobody",
         ),
         (
+            flaw("/west/team_strategy", "round", to=2**32 - 1),
+            "meetings",
+            "round 4294967295: t_c is 10.000 s, not in its window",
+        ),
+        (
             flaw("/west/team_strategy", *PART, "agent", to="west"),
-            "strategies",
-            "round 1: strategies of ['west', 'west'], not of each agent in order",
+            "records",
+            "west: 1.000 s: round 1: strategies of ['west', 'west'], not of one agent of the",
         ),
         (
             flaw("/west/task_event", "agent", to=HTML),

@@ -45,6 +45,8 @@ _OFFERS = "plan_offer"
 _CONNECTIVITY = "tlcomm_msgs/msg/Connectivity"
 # Whether it is the one in C or not, it makes no more than lists, maps and scalars.
 _Loader: Final = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+# The one in C has no limit of its own, but the process's stack has.
+_MOST_NESTED: Final = 50
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,12 +112,25 @@ def find_files(path: Path) -> tuple[Path, ...]:
 def _listed_files(folder: Path) -> tuple[Path, ...]:
     """Return the files in the order of ``metadata.yaml``, if it is there and true."""
     try:
-        document = yaml.load((folder / "metadata.yaml").read_text("utf-8"), _Loader)  # noqa: S506
+        text = (folder / "metadata.yaml").read_text("utf-8")
+        if _is_nested_deeply(text):
+            return ()
+        document = yaml.load(text, _Loader)  # noqa: S506
         names = document["rosbag2_bagfile_information"]["relative_file_paths"]
         paths = tuple(folder / name for name in names if str(name).endswith(".mcap"))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError, RecursionError, KeyError, TypeError):
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, KeyError, TypeError):
         return ()
     return paths if all(path.is_file() for path in paths) else ()
+
+
+def _is_nested_deeply(text: str) -> bool:
+    depth = 0
+    for event in yaml.parse(text, _Loader):
+        depth += isinstance(event, yaml.CollectionStartEvent)
+        depth -= isinstance(event, yaml.CollectionEndEvent)
+        if depth > _MOST_NESTED:
+            return True
+    return False
 
 
 def read_run(path: Path) -> RecordedRun:

@@ -73,7 +73,7 @@ class Server:
         self._gate: Final = Gate(self._socket.getsockname()[1])
         self._served: Final = make(self._gate)
         self._audience: Final = audience
-        self._feeds: Final[set[asyncio.Task[None]]] = set()
+        self._feeds: Final[dict[asyncio.Task[None], ServerConnection]] = {}
         self._listener: Listener | None = None
 
     @property
@@ -90,6 +90,8 @@ class Server:
             server_header=None,
             max_size=_MOST_BYTES_HEARD,
             close_timeout=_CLOSING_S,
+            # A page in the background may sleep for long, and goes on then.
+            ping_interval=None,
             logger=_LOG,
         )
         return self
@@ -100,6 +102,8 @@ class Server:
         self._audience.end()
         if self._feeds:
             await asyncio.wait(self._feeds, timeout=_FAREWELL_S)
+        for connection in self._feeds.values():
+            connection.transport.abort()
         self._listener.close()
         await self._listener.wait_closed()
 
@@ -129,13 +133,13 @@ class Server:
         with self._audience.page() as page:
             feeding = asyncio.create_task(_send(page, connection))
             hearing = asyncio.create_task(_hear(connection))
-            self._feeds.add(feeding)
+            self._feeds[feeding] = connection
             try:
                 await asyncio.wait((feeding, hearing), return_when=asyncio.FIRST_COMPLETED)
             finally:
                 for task in (feeding, hearing):
                     task.cancel()
-                self._feeds.remove(feeding)
+                del self._feeds[feeding]
 
 
 async def _send(page: Page, connection: ServerConnection) -> None:

@@ -93,6 +93,7 @@ async def _tell(session: Session, audience: Audience, ear: "_Ear") -> None:
     words = asyncio.create_task(_obey(session, ear))
     while not words.done():
         await asyncio.wait((words,), timeout=_PERIOD_S)
+        ear.require()
         session.take([*ear.heard()], is_hearing=ear.is_hearing)
         if news := session.news():
             audience.tell(news)
@@ -141,6 +142,11 @@ class _Ear:
     def begin(self) -> None:
         """Begin to listen."""
         self._thread.start()
+
+    def require(self) -> None:
+        """Make sure that it still listens, if it began to."""
+        if self._thread.ident is not None and not self._thread.is_alive():
+            raise RuntimeError("nothing is heard any more")
 
     def heard(self) -> Iterator[Heard]:
         """Yield what was heard since the last call, in the order of arrival."""

@@ -7,6 +7,7 @@ from typing import Final
 from tlcomm_core.errors import InputError
 from tlcomm_tools.bag.origin import find_method, find_pace, find_scenario
 from tlcomm_tools.bag.reader import read_run
+from tlcomm_tools.collection import uncollected
 from tlcomm_tools.folder import replace_file
 from tlcomm_tools.report.document import report_document
 from tlcomm_tools.report.moves import read_best_responses
@@ -33,6 +34,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
 
 
+@uncollected()
 def run(options: Namespace) -> Status:
     """Write the page; the status is that of reading and writing, whatever the verdict."""
     _require_writable(options.out)

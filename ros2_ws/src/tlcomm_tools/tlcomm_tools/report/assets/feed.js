@@ -1,5 +1,6 @@
 // The feed of a run that goes on: the document grows, and what is shown with it.
 
+const LOST = "connection lost";
 // "": no feed, or the run is over; else what people read.
 let state = DATA.feed ? "waiting for the run" : "";
 let growths = 0;
@@ -8,7 +9,7 @@ const growing = [];
 /** Has something done whenever the document has grown. */
 const onGrowth = (act) => growing.push(act);
 
-const isLive = () => state !== "";
+const isLive = () => state !== "" && state !== LOST;
 
 /** Changes one part of the document: a value, or what a list has from an index on. */
 function applyEdit({ path, from, items, value }) {
@@ -41,7 +42,8 @@ function listen(begin) {
   });
   feed.addEventListener("close", () => {
     if (!isLive()) return;
-    state = "connection lost";
+    state = LOST;
     growing.forEach((act) => act());
+    show({ isFollowing: false });
   });
 }

@@ -14,6 +14,7 @@ function setUpFindings() {
   if (DATA.feed) byId("source").textContent = "Everything on this page comes from the run's messages.";
   drawFindings();
   onGrowth(() => {
+    drawSubtitle();
     drawVerdict();
     if (!isLive() || growths % GROWTHS_TOLD === 1) drawFindings();
   });
@@ -98,8 +99,8 @@ function showAudit() {
 /** Why there is no audit of a run that was just looked on. */
 function describeMissingAudit() {
   const how = "Its bag is audited by tlcomm check, and shown with the audit by tlcomm report.";
-  return isLive()
-    ? `A run is audited when it is over. ${how}` : `This is what the run itself says at its end. ${how}`;
+  return verdict()
+    ? `This is what the run itself says at its end. ${how}` : `A run is audited when it is over. ${how}`;
 }
 
 function auditParts(audit) {
