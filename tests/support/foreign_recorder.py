@@ -16,6 +16,7 @@ from importlib import import_module
 from pathlib import Path
 
 import rclpy
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import QoSDurabilityPolicy, QoSHistoryPolicy, QoSProfile
 from rosbags.interfaces import Connection
@@ -59,8 +60,10 @@ def _record(node: Node, topics: Sequence[_Topic], writer: Writer, store: Typesto
     sys.stdout.write("ready\n")
     sys.stdout.flush()
     names = [name for name, _, _ in topics]
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
     while not heard_s or time.monotonic() < heard_s[0] + _SILENCE_S or _are_offered(node, names):
-        rclpy.spin_once(node, timeout_sec=0.1)
+        executor.spin_once(timeout_sec=0.1)
 
 
 def _are_offered(node: Node, names: Sequence[str]) -> bool:

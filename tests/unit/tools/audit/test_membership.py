@@ -26,10 +26,12 @@ def test_strangers_are_named_and_left_out() -> None:
     records.heard.append(HeardRecord(2, "east", "ghost", "proposal", 1))
     held = records.strategies[0]
     strange = tuple(replace(own, agent="ghost") for own in held.strategy.strategies[:1])
+    twice = held.strategy.strategies[:1] * 2
     records.strategies += [
         replace(held, agent="ghost"),
         replace(held, strategy=replace(held.strategy, strategies=strange)),
         replace(held, strategy=replace(held.strategy, strategies=())),
+        replace(held, strategy=replace(held.strategy, strategies=twice)),
     ]
     kept, lines = keep_members(records, TEAM)
     assert kept == replace(expected, heard=kept.heard)
@@ -39,7 +41,11 @@ def test_strangers_are_named_and_left_out() -> None:
         "'ghost' is no agent of the scenario, and has 1 strategy",
         "'ghost' is no agent of the scenario, and has 1 round timing",
         "'ghost' is no agent of the scenario, and has 1 estimate",
-        "east: 1.000 s: round 1: strategies of ['ghost'], not of agents of the scenario",
+        "east: 1.000 s: round 1: strategies of ['ghost'], not of one agent of the scenario each",
         "east: 1.000 s: round 1: strategies of nobody",
+        (
+            "east: 1.000 s: round 1: strategies of ['east', 'east'], "
+            "not of one agent of the scenario each"
+        ),
         "'ghost' is no agent of the scenario, and was heard",
     )

@@ -264,7 +264,7 @@ PART = ("strategies", 0)
         (
             flaw("/west/team_strategy", *PART, "agent", to=HTML),
             "records",
-            f"west: 1.000 s: round 1: strategies of {[HTML, 'west']!r}, not of agents of",
+            f"west: 1.000 s: round 1: strategies of {[HTML, 'west']!r}, not of one agent",
         ),
         (
             flaw("/west/team_strategy", "strategies", to=[]),
@@ -278,8 +278,8 @@ PART = ("strategies", 0)
         ),
         (
             flaw("/west/team_strategy", *PART, "agent", to="west"),
-            "strategies",
-            "round 1: strategies of ['west', 'west'], not of each agent in order",
+            "records",
+            "west: 1.000 s: round 1: strategies of ['west', 'west'], not of one agent of the",
         ),
         (
             flaw("/west/task_event", "agent", to=HTML),

@@ -1,13 +1,21 @@
 """The verb ``report``."""
 
 import json
+import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from support.command import refusal, run
+from support.gate import gate
 from support.hand_made_run import hand_made_records, write_bag
+from support.recorded_bag import write_recording
+from support.recorded_simulation import record
 from tlcomm_core.agent.actions import TaskEventKind
+from tlcomm_core.mission import Mission
+from tlcomm_core.protocol.messages import BestResponse
+from tlcomm_core.scenario.site import Site
 
 
 def test_report_writes_a_page(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -42,3 +50,20 @@ def test_report_refuses(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> N
     assert complaint in refusal(capsys, "report", "bag", "-o", "bag")
     assert "there is no folder 'far'" in refusal(capsys, "report", "bag", "-o", "far/a.html")
     assert "-o/--out" in refusal(capsys, "report", "bag")
+
+
+def test_report_refuses_a_best_response_that_is_none(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """No agent would have heard it; the bag and the topic are named."""
+    recording = record(Mission(Site.from_scenario(gate()), 0, None, 5.0))
+    index, said = next(
+        (index, own)
+        for index, own in enumerate(recording.said)
+        if isinstance(own.message, BestResponse)
+    )
+    bad = replace(said, message=replace(said.message, change_s=math.nan))
+    recording.said[index] = bad
+    write_recording(tmp_path / "bag", recording, measures=False)
+    complaint = f"'bag': a message on '/{said.agent}/best_response' can't be used: change: "
+    assert complaint in refusal(capsys, "report", "bag", "-o", "a.html")

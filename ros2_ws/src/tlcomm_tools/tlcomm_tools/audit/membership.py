@@ -72,7 +72,8 @@ def _counted(count: int, what: str) -> str:
 
 
 def _is_of_members(held: TeamStrategy, agents: frozenset[str]) -> bool:
-    return bool(held.strategies) and all(own.agent in agents for own in held.strategies)
+    names = {own.agent for own in held.strategies}
+    return bool(names) and names <= agents and len(names) == len(held.strategies)
 
 
 def _strange_strategies(records: Iterable[StrategyRecord], agents: frozenset[str]) -> Iterator[str]:
@@ -80,6 +81,6 @@ def _strange_strategies(records: Iterable[StrategyRecord], agents: frozenset[str
         held = record.strategy
         if not _is_of_members(held, agents):
             names = [own.agent for own in held.strategies]
-            whom = f"{names!r}, not of agents of the scenario" if names else "nobody"
+            whom = f"{names!r}, not of one agent of the scenario each" if names else "nobody"
             when_s = record.stamp_ns * 1e-9
             yield f"{record.agent}: {when_s:.3f} s: round {held.round}: strategies of {whom}"

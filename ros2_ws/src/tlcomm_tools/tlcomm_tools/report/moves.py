@@ -11,11 +11,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
+from tlcomm_core.errors import InputError
 from tlcomm_core.game.strategy import TeamStrategy
-from tlcomm_core.protocol.messages import BestResponse
+from tlcomm_core.protocol.messages import BestResponse, TeamMessage
 from tlcomm_core.wire.team_messages import decode_message
 from tlcomm_tools.bag.container import Channel
-from tlcomm_tools.bag.messages import read_messages, using
+from tlcomm_tools.bag.messages import BagMessage, read_messages, using
 from tlcomm_tools.bag.topics import AGENT_TOPICS
 
 __all__ = ["Course", "courses", "read_best_responses"]
@@ -80,13 +81,18 @@ def read_best_responses(path: Path) -> tuple[BestResponse, ...]:
     Raises:
         InputError: there is no bag, or a message can't be decoded or used.
     """
-    said = []
-    for message in read_messages(path, _is_said).messages:
-        with using(message):
-            own, _ = decode_message(message.content, _TOPIC)
-        if isinstance(own, BestResponse):
-            said.append(own)
-    return tuple(said)
+    messages = read_messages(path, _is_said).messages
+    try:
+        said = [_decoded(message) for message in messages]
+    except InputError as error:
+        raise InputError(f"{str(path)!r}: {error}") from error
+    return tuple(own for own in said if isinstance(own, BestResponse))
+
+
+def _decoded(message: BagMessage) -> TeamMessage:
+    with using(message):
+        said, _ = decode_message(message.content, _TOPIC)
+    return said
 
 
 def _is_said(channel: Channel) -> bool:
