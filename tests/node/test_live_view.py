@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -27,6 +28,7 @@ from support.live_page import grown
 from support.spinning import SpunNodes
 from tlcomm_core.method import Method
 from tlcomm_core.scenario.loader import dumps
+from tlcomm_core.units import nanoseconds
 from tlcomm_tools.bag.definitions import load_typestore
 from tlcomm_tools.bag.topics import Topic
 from tlcomm_tools.live.document import LiveDocument
@@ -39,8 +41,11 @@ class View:
     """A view's process."""
 
     def __init__(self, folder: Path, domain: int) -> None:
-        """Start it, with a bag of the whole run beside it."""
-        write_bag(folder / "bag", hand_made_records())
+        """Start it, with a bag beside it that goes on after what is said on topics."""
+        records = hand_made_records()
+        later_ns = records.odometry[-1].stamp_ns + nanoseconds(2.0)
+        records.odometry.append(replace(records.odometry[-1], stamp_ns=later_ns))
+        write_bag(folder / "bag", records)
         (folder / "scenario.yaml").write_text(dumps(hand_made_scenario()), "utf-8")
         self._process = subprocess.Popen(
             [
