@@ -319,9 +319,11 @@ def test_the_end_waits_for_whoever_is_late(domain: int, tmp_path: Path) -> None:
         assert hearer.stdout.readline() == "one\n"
         hearer.send_signal(signal.SIGSTOP)
         os.write(typist, b".")
-        with pytest.raises(subprocess.TimeoutExpired):
-            process.wait(timeout=12)
-        hearer.send_signal(signal.SIGCONT)
+        try:
+            with pytest.raises(subprocess.TimeoutExpired):
+                process.wait(timeout=12)
+        finally:
+            hearer.send_signal(signal.SIGCONT)
         process.communicate(timeout=60)
         assert hearer.stdout.readline() == f"{1 + REMAINDER}\n"
     os.close(typist)
