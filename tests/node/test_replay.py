@@ -255,7 +255,7 @@ BURST = 1500
 NAME = "x" * 20_000
 
 
-def write_burst(folder: Path) -> None:
+def write_burst(folder: Path, burst: int = BURST) -> None:
     """Write a bag with one large message, and a second later many at once."""
     make = _Messages(load_typestore(SHARE))
     data = make._bytes(
@@ -268,7 +268,7 @@ def write_burst(folder: Path) -> None:
         confirmed=[],
     )
     with open_writer(folder) as writer:
-        for number in range(BURST + 1):
+        for number in range(burst + 1):
             log_ns = NANOSECONDS_PER_SECOND if number else 0
             writer.write(NUMBERS["/east/confirmation"], log_ns, data)
 
@@ -296,5 +296,35 @@ def test_whoever_stands_still_is_waited_for(domain: int, tmp_path: Path) -> None
         hearer.send_signal(signal.SIGCONT)
         process.communicate(timeout=60)
         assert hearer.stdout.readline() == f"{1 + BURST}\n"
+    os.close(typist)
+    os.close(terminal)
+
+
+# What the publisher keeps, so that it doesn't wait before the end.
+REMAINDER = 400
+
+
+def test_the_end_waits_for_whoever_is_late(domain: int, tmp_path: Path) -> None:
+    """What is under way when all is published arrives too, at a subscriber that is behind."""
+    write_burst(tmp_path / "bag", REMAINDER)
+    typist, terminal = os.openpty()
+    hearer = subprocess.Popen(
+        [sys.executable, "-c", HEARER],
+        env={**os.environ, "ROS_DOMAIN_ID": str(domain)},
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    with hearer, start(domain, tmp_path / "bag", "--rate", "1e-6", stdin=terminal) as process:
+        assert hearer.stdout is not None
+        assert hearer.stdout.readline() == "one\n"
+        hearer.send_signal(signal.SIGSTOP)
+        os.write(typist, b".")
+        try:
+            with pytest.raises(subprocess.TimeoutExpired):
+                process.wait(timeout=12)
+        finally:
+            hearer.send_signal(signal.SIGCONT)
+        process.communicate(timeout=60)
+        assert hearer.stdout.readline() == f"{1 + REMAINDER}\n"
     os.close(typist)
     os.close(terminal)

@@ -125,6 +125,52 @@ def test_what_may_not_be_executed_waits(context: Context, way: Spin) -> None:
     assert waited[:5] == [0] * 5
 
 
+class Patient(Node):
+    """A node that wakes up for one subscription, and takes another's messages along."""
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(
+            "patient",
+            context=context,
+            use_global_arguments=False,
+            enable_rosout=False,
+            start_parameter_services=False,
+            parameter_overrides=[Parameter("start_type_description_service", value=False)],
+        )
+        self.heard: list[str] = []
+        self.urgent: object = self._listen("tick")
+        self._listen("number")
+
+    def _listen(self, topic: str) -> object:
+        return self.create_subscription(
+            UInt64, topic, lambda message: self.heard.append(f"{topic} {message.data}"), 10
+        )
+
+
+@pytest.mark.parametrize("is_patient", [True, False])
+def test_what_came_before_an_urgent_message_is_taken_first(
+    context: Context, is_patient: bool
+) -> None:
+    """Though its subscription is the first; a node without an urgent one takes them as they are."""
+    node = Patient(context)
+    if not is_patient:
+        node.urgent = None
+    publishers = [node.create_publisher(UInt64, topic, 10) for topic in ("number", "tick")]
+
+    def begin() -> None:
+        if all(publisher.get_subscription_count() for publisher in publishers):
+            timer.cancel()
+            for publisher in publishers:
+                publisher.publish(UInt64(data=1))
+                publisher.publish(UInt64(data=2))
+
+    timer = node.create_timer(0.01, begin, clock=STEADY)
+    spin_fast(node, lambda: len(node.heard) == 4)
+    if is_patient:
+        assert node.heard == ["number 1", "number 2", "tick 1", "tick 2"]
+    assert sorted(node.heard) == ["number 1", "number 2", "tick 1", "tick 2"]
+
+
 @pytest.mark.parametrize("way", SPINS)
 def test_services_answer(context: Context, way: Spin) -> None:
     """Each request gets its own response, also of several that come together."""

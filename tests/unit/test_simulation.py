@@ -270,8 +270,10 @@ def most_distance_heard_m(label: str, monkeypatch: pytest.MonkeyPatch) -> float:
     owners: dict[int, str] = {}
     make, filter_ = Radio.__init__, Radio._distance_m
 
-    def init(radio: Radio, latency_ns: int, channel: Channel, unlinked: str) -> None:
-        make(radio, latency_ns, channel, unlinked)
+    def init(
+        radio: Radio, latency_ns: int, channel: Channel, unlinked: str, lag_ns: int | None
+    ) -> None:
+        make(radio, latency_ns, channel, unlinked, lag_ns)
         # Members are made in the scenario's order.
         owners[id(radio)] = next(names)
 

@@ -130,7 +130,7 @@ def test_missing_program_is_named(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("texts", "limits", "name", "reason"),
     [
-        (["tell(Ready()); wait()", "wait()"], {"start_s": 1.0}, "p1", "not started within 1 s"),
+        (["tell(Ready()); wait()", "wait()"], {"start_s": 3.0}, "p1", "not started within 3 s"),
         (
             ["tell(Ready()); wait()", "tell(Started()); wait()"],
             {"start_s": 3.0},
@@ -139,15 +139,15 @@ def test_missing_program_is_named(tmp_path: Path) -> None:
         ),
         (
             ["tell(Ready()); wait()", "tell(Ready()); tell(Progress(1, 1)); wait()"],
-            {"progress_s": 0.2},
+            {"progress_s": 1.0},
             "p1",
-            "no progress for 0.2 s",
+            "no progress for 1 s",
         ),
         (
             ["tell(Ready()); tell(Finished())", "tell(Ready()); wait()"],
-            {"finish_s": 0.2},
+            {"finish_s": 2.0},
             "p1",
-            "not ended 0.2 s after the run was over",
+            "not ended 2 s after the run was over",
         ),
     ],
 )

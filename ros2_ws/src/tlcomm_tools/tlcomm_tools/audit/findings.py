@@ -121,7 +121,7 @@ def audit_run(
         damage: why the records couldn't be read to their end, or "".
         pace: how simulated time went on; ``None`` if that isn't known.
 
-    Cost: about 2 s for 100 rounds of 8 agents.
+    Cost: about 1 s for 100 rounds of 8 agents.
     """
     evidence = Evidence.gather(scenario, records, end_ns * 1e-9)
     guarantees = audit_guarantees(method, evidence)

@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from importlib import import_module
+from itertools import count
 from typing import Any, Final
 
 import rclpy
@@ -50,8 +51,8 @@ _MATCHING_PERIOD_S: Final = 0.02
 # Of each topic, no more than this are published before those before them have arrived.
 _MOST_UNACKNOWLEDGED: Final = 500
 _SLICE: Final = Duration(seconds=0.1)
-# How long the end waits for what is under way.
-_SLICES_AT_THE_END: Final = 50
+# How long quitting waits for what is under way.
+_SLICES_ON_QUITTING: Final = 50
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,9 +156,9 @@ class _Player:
             self._played.messages += 1
             self._played.reached_ns = log_ns
 
-    def finish(self) -> None:
-        """Wait until everything has arrived."""
-        for _ in range(_SLICES_AT_THE_END):
+    def finish(self, *, is_cut: bool) -> None:
+        """Wait until everything has arrived; not for long if the user has quit."""
+        for _ in range(_SLICES_ON_QUITTING) if is_cut else count():
             if all(outlet.has_arrived() for outlet in self._outlets if outlet is not None):
                 return
 
@@ -184,8 +185,8 @@ def play(script: Script, how: Playing, keyboard: Keyboard, tell: Callable[[str],
             raise InputError("nothing to replay: none of the topics can be published")
         player = _Player(outlets, script, played)
         if _await_audience(player, how, keyboard):
-            _play(player, script, how, keyboard, tell)
-            player.finish()
+            is_over = _play(player, script, how, keyboard, tell)
+            player.finish(is_cut=not is_over)
     return played
 
 
@@ -244,7 +245,8 @@ def _play(
     how: Playing,
     keyboard: Keyboard,
     tell: Callable[[str], None],
-) -> None:
+) -> bool:
+    """Return whether the end was reached, and the user hasn't quit."""
     times_ns = [message[0] for message in script.messages]
     schedule = Schedule(times_ns, how.rate, time.monotonic(), loops=how.loops)
     while not schedule.is_over:
@@ -252,12 +254,13 @@ def _play(
         wait_s = schedule.wait_s(time.monotonic())
         for key in keyboard.wait(None if wait_s is None else min(wait_s, _LONGEST_WAIT_S)):
             if key is Key.QUIT:
-                return
+                return False
             if key is Key.PAUSE:
                 schedule.toggle_pause(time.monotonic())
             else:
                 player.publish(schedule.take_step(time.monotonic()))
             tell(_describe(schedule))
+    return True
 
 
 def _describe(schedule: Schedule) -> str:
