@@ -78,13 +78,32 @@ def test_what_was_missed_comes_from_the_bag(tmp_path: Path) -> None:
     write_bag(tmp_path / "bag", earlier(hand_made_records(), 13.0))
     view = View(tmp_path / "bag")
     early = [own for own in late if read_stamp(own[1]) <= nanoseconds(10.0)]
-    view.turn(early, is_hearing=False)
+    view.turn(early[:-1], is_hearing=False)
     for _ in range(3):
         view.turn([])
+    view.turn(early[-1:])
     assert view.page["run"]["end_s"] == 0.0
     view.turn([])
     assert view.page["run"]["end_s"] == 10.0
     view.turn(late[len(early) :])
+    assert view.end() == whole_page(tmp_path)
+
+
+def test_silence_tells_no_time(tmp_path: Path) -> None:
+    """What was said before all was heard is read however long nothing comes but what is latched."""
+    heard = heard_of(hand_made_records())
+    latched = [own for own in heard if TOPICS[own[0]].latched]
+    assert latched
+    write_bag(tmp_path / "bag", earlier(hand_made_records(), 13.0))
+    view = View(tmp_path / "bag")
+    for news in ([], [], [], [], [], latched[:1], []):
+        view.turn(news)
+    assert view.page["run"]["end_s"] == 0.0
+    late = [own for own in heard if read_stamp(own[1]) >= nanoseconds(10.0)]
+    view.turn([own for own in late if read_stamp(own[1]) <= nanoseconds(11.0)])
+    view.turn([])
+    assert view.page["run"]["end_s"] == 11.0
+    view.turn([own for own in late if read_stamp(own[1]) > nanoseconds(11.0)])
     assert view.end() == whole_page(tmp_path)
 
 
@@ -95,8 +114,10 @@ def test_the_bag_is_waited_for(tmp_path: Path, until_s: float | None) -> None:
         write_bag(tmp_path / "bag", earlier(hand_made_records(), until_s))
     view = View(tmp_path / "bag")
     heard = heard_of(hand_made_records())
+    for _ in range(3):
+        view.turn([])
     view.turn([next(own for own in heard if read_stamp(own[1]) == nanoseconds(20.0))])
-    for _ in range(6):
+    for _ in range(3):
         view.turn([])
     assert view.page["run"]["end_s"] == 0.0
 

@@ -44,6 +44,7 @@ class Beginning:
         self._numbers: Final[Mapping[str, int]] = {
             topic.name: number for number, topic in enumerate(topics)
         }
+        self._latched: Final = {number for number, topic in enumerate(topics) if topic.latched}
         self._heard: list[Heard] = []
         self._from_ns = 0
 
@@ -51,9 +52,14 @@ class Beginning:
         """Keep what was heard until the beginning is known."""
         self._heard += heard
 
-    def choose(self) -> None:
-        """Choose the time: everything that is said from now on is heard."""
-        self._from_ns = max((read_stamp(data) for _, data in self._heard), default=0)
+    def choose(self, heard: Sequence[Heard]) -> bool:
+        """Choose the time by what was just heard, when everything that is said is; tell whether so.
+
+        Silence tells no time, and what is latched may have been said long ago.
+        """
+        stamps_ns = [read_stamp(data) for number, data in heard if number not in self._latched]
+        self._from_ns = max(stamps_ns, default=0)
+        return bool(stamps_ns)
 
     def join(self) -> Iterator[Heard] | None:
         """Return all messages, in order of time; ``None`` if the bag doesn't go so far yet."""

@@ -40,6 +40,7 @@ class Session:
         self._intake: Final = Intake(document, topics, store)
         self._beginning: Final = Beginning(bag, topics)
         self._has_begun = False
+        self._has_chosen = False
         self._turns_heard = 0
 
     def take(self, heard: Sequence[Heard], *, is_hearing: bool) -> None:
@@ -53,10 +54,10 @@ class Session:
             self._take_in(heard)
             return
         self._beginning.hear(heard)
-        self._turns_heard = self._turns_heard + 1 if is_hearing else 0
-        if self._turns_heard == _TURNS_HEARD:
-            self._beginning.choose()
-        elif self._turns_heard > _TURNS_HEARD and (joined := self._beginning.join()) is not None:
+        if not self._has_chosen:
+            self._has_chosen = self._turns_heard >= _TURNS_HEARD and self._beginning.choose(heard)
+            self._turns_heard = self._turns_heard + 1 if is_hearing else 0
+        elif (joined := self._beginning.join()) is not None:
             self._take_in(joined)
             self._has_begun = True
 
