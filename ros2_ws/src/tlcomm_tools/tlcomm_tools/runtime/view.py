@@ -46,9 +46,10 @@ _DEPTH: Final = 1000
 _PERIOD_S: Final = 0.25
 # Messages are taken together, that many a time: to wake up for each would cost more.
 _NAP_S: Final = 0.05
-# What is said once is not to be missed. The rest is said again soon, or is not missed; and whom
-# nobody waits for an answer from costs the sayers least.
-_SAID_ONCE: Final = frozenset({"task_event", "team_strategy", "estimate"})
+# What is said once is not to be missed, nor is when links change: windows are judged by that. The
+# rest is said again soon, or is not missed; and whom nobody waits for an answer from costs the
+# sayers least.
+_NOT_TO_BE_MISSED: Final = frozenset({"connectivity", "task_event", "team_strategy", "estimate"})
 # Who is so far behind has lost the run anyway, and is not to eat the machine's memory.
 _MOST_HEARD: Final = 200_000
 # The run goes first.
@@ -193,7 +194,7 @@ def _quality(topic: Topic) -> QoSProfile:
         depth=_DEPTH,
         reliability=(
             QoSReliabilityPolicy.RELIABLE
-            if split_topic(topic.name)[1] in _SAID_ONCE
+            if split_topic(topic.name)[1] in _NOT_TO_BE_MISSED
             else QoSReliabilityPolicy.BEST_EFFORT
         ),
         durability=(
