@@ -328,3 +328,33 @@ def test_the_end_waits_for_whoever_is_late(domain: int, tmp_path: Path) -> None:
         assert hearer.stdout.readline() == f"{1 + REMAINDER}\n"
     os.close(typist)
     os.close(terminal)
+
+
+def test_nobody_has_to_wait_for_whoever_never_comes(domain: int, tmp_path: Path) -> None:
+    """At the end, too, q quits."""
+    write_burst(tmp_path / "bag", REMAINDER)
+    typist, terminal = os.openpty()
+    hearer = subprocess.Popen(
+        [sys.executable, "-c", HEARER],
+        env={**os.environ, "ROS_DOMAIN_ID": str(domain)},
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    with hearer, start(domain, tmp_path / "bag", "--rate", "1e-6", stdin=terminal) as process:
+        assert hearer.stdout is not None
+        assert process.stderr is not None
+        assert hearer.stdout.readline() == "one\n"
+        hearer.send_signal(signal.SIGSTOP)
+        os.write(typist, b".")
+        hints = b""
+        while b"paused" not in hints:
+            hints += os.read(process.stderr.fileno(), 4096)
+        os.write(typist, b"q")
+        try:
+            # A little sooner than DDS takes a process that says nothing for gone.
+            assert process.wait(timeout=15) == 0
+        finally:
+            hearer.kill()
+            process.kill()
+    os.close(typist)
+    os.close(terminal)

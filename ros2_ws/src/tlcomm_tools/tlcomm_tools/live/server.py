@@ -30,7 +30,7 @@ __all__ = ["Served", "Server"]
 _MOST_BYTES_HEARD: Final = 125
 _CLOSING_S: Final = 0.5
 # How long the end waits for pages to take what is left.
-_FAREWELL_S: Final = 1.0
+_FAREWELL_S: Final = 2.0
 _HEADERS: Final = {
     "Connection": "close",
     "Content-Security-Policy": "frame-ancestors 'none'",

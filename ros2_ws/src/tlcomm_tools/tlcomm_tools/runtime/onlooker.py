@@ -15,7 +15,7 @@ from typing import Any, Final, Self
 
 __all__ = ["Onlooker"]
 
-_PATIENCE_S: Final = 3.0
+_PATIENCE_S: Final = 6.0
 
 
 class Onlooker:

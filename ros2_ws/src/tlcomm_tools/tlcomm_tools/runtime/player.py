@@ -8,6 +8,7 @@ It publishes in the user's own ROS domain, where the user's tools are. The node 
 so there is nothing to spin: keys are all that it waits for.
 """
 
+import math
 import os
 import re
 import signal
@@ -16,7 +17,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from importlib import import_module
-from itertools import count
 from typing import Any, Final
 
 import rclpy
@@ -156,11 +156,15 @@ class _Player:
             self._played.messages += 1
             self._played.reached_ns = log_ns
 
-    def finish(self, *, is_cut: bool) -> None:
-        """Wait until everything has arrived; not for long if the user has quit."""
-        for _ in range(_SLICES_ON_QUITTING) if is_cut else count():
+    def finish(self, keyboard: Keyboard, *, is_cut: bool) -> None:
+        """Wait until everything has arrived; not for long once the user has quit."""
+        slices = _SLICES_ON_QUITTING if is_cut else math.inf
+        while slices > 0:
             if all(outlet.has_arrived() for outlet in self._outlets if outlet is not None):
                 return
+            slices -= 1
+            if Key.QUIT in keyboard.wait(0.0):
+                slices = min(slices, _SLICES_ON_QUITTING)
 
 
 def play(script: Script, how: Playing, keyboard: Keyboard, tell: Callable[[str], None]) -> Played:
@@ -186,7 +190,7 @@ def play(script: Script, how: Playing, keyboard: Keyboard, tell: Callable[[str],
         player = _Player(outlets, script, played)
         if _await_audience(player, how, keyboard):
             is_over = _play(player, script, how, keyboard, tell)
-            player.finish(is_cut=not is_over)
+            player.finish(keyboard, is_cut=not is_over)
     return played
 
 
