@@ -158,3 +158,10 @@ def test_links_at_instants_are_those_of_the_intervals() -> None:
     at, within = found.linked_at(times_s), found.linked_within(times_s, times_s)
     assert at.tolist() == within.tolist()
     assert 0 < at.sum() < len(times_s)
+
+
+def test_nobody_hears_itself() -> None:
+    """Whatever it said, and though it is as near as can be."""
+    own = replace(heard(2.5), sender="south")
+    (line,) = audit_hearing(evidence(own), LOCK_STEP)
+    assert line.endswith("heard 'plan_offer' of south, said at 2.500 s, which is its own")

@@ -73,6 +73,9 @@ def audit_hearing(evidence: Evidence, pace: Pace | None) -> Iterator[str]:
     heard = sorted(evidence.records.heard, key=attrgetter("agent", "sender"))
     for _, group in groupby(heard, key=attrgetter("agent", "sender")):
         own = list(group)
+        if own[0].agent == own[0].sender:
+            yield from _line(own, "which is its own")
+            continue
         yield from _unsaid(own, said, rule)
         yield from _early(own, rule)
         yield from _distant(evidence, own, rule)
