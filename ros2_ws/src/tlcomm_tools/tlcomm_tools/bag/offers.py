@@ -13,19 +13,16 @@ from rosbags.typesys.store import Typestore
 
 from tlcomm_core.protocol.messages import PlanOffer
 from tlcomm_core.records import OfferRecord
-from tlcomm_core.units import NANOSECONDS_PER_SECOND
 from tlcomm_core.wire.fields import WireError
 from tlcomm_core.wire.team_messages import decode_message
+from tlcomm_tools.bag.cdr import Cursor, is_little_endian
 from tlcomm_tools.wire import DecodedMessage, stamp_ns
 
 __all__ = ["read_offers"]
 
 _TYPE: Final = "tlcomm_msgs/msg/PlanOffer"
 _TOPIC: Final = "plan_offer"
-_HEAD: Final = 4
-_WORD: Final = 4
-_STAMP: Final = struct.Struct("<iII")
-_COUNT: Final = struct.Struct("<I")
+_NUMBER: Final = struct.Struct("<I")
 # The fields that lie before a message's offers, as far as they are looked at.
 _BEGINNING: Final = ("header", "sender", "round")
 
@@ -76,7 +73,7 @@ def read_offers(
 def _tickets(store: Typestore, messages: Sequence[bytes]) -> Iterator[_Ticket]:
     _, fields = store.fielddefs[_TYPE]
     begins = tuple(name for name, _ in fields[: len(_BEGINNING)])
-    is_usual = begins == _BEGINNING and all(data[1:2] == b"\x01" for data in messages)
+    is_usual = begins == _BEGINNING and all(map(is_little_endian, messages))
     for data in messages:
         if is_usual:
             yield _glanced(data)
@@ -87,12 +84,10 @@ def _tickets(store: Typestore, messages: Sequence[bytes]) -> Iterator[_Ticket]:
 
 def _glanced(data: bytes) -> _Ticket:
     """Return a message's ticket without decoding it."""
-    sec, nanosec, length = _STAMP.unpack_from(data, _HEAD)
-    sender_at = _padded(_STAMP.size + length)
-    (length,) = _COUNT.unpack_from(data, _HEAD + sender_at)
-    (number,) = _COUNT.unpack_from(data, _HEAD + _padded(sender_at + _WORD + length))
-    return _Ticket(sec * NANOSECONDS_PER_SECOND + nanosec, number)
-
-
-def _padded(offset: int) -> int:
-    return offset + -offset % _WORD
+    cursor = Cursor(data)
+    sent_ns = cursor.take_stamp_ns()
+    # The frame and the sender.
+    cursor.skip_text()
+    cursor.skip_text()
+    (number,) = cursor.take(_NUMBER)
+    return _Ticket(sent_ns, number)

@@ -16,6 +16,7 @@ from types import MappingProxyType
 from typing import Any, Final
 
 from tlcomm_core.units import seconds
+from tlcomm_tools.bag.cdr import Cursor
 from tlcomm_tools.bag.container import Channel, read_container
 from tlcomm_tools.bag.reader import find_files
 from tlcomm_tools.bag.topics import split_topic
@@ -34,12 +35,10 @@ COLUMNS: Final = ("times_s", "way", "first")
 # Its coordinates in metres.
 Corner = tuple[float, float]
 
-# Of a path's serialization (CDR): what says that it is little-endian; a stamp; numbers.
-_LITTLE: Final = b"\x00\x01\x00\x00"
-_STAMP_SIZE: Final = 8
-_NUMBER: Final = struct.Struct("<I")
-_PLACE: Final = struct.Struct("<dd")
-_POSE_SIZE: Final = 56
+_COUNT: Final = struct.Struct("<I")
+# A pose's position; neither its height nor where it looks is shown.
+_PLACE: Final = struct.Struct("<dd40x")
+_WIDTH: Final = 8
 
 
 class Plans:
@@ -107,29 +106,14 @@ def read_corners(data: bytes) -> list[Corner]:
     Args:
         data: a path's serialization; one that makes no sense has no corners.
     """
-    try:
-        return _read_places(data)[1:] if data.startswith(_LITTLE) else []
-    except struct.error:
-        return []
-
-
-def _read_places(data: bytes) -> list[Corner]:
-    at = _behind_header(data, len(_LITTLE))
-    at += -at % _NUMBER.size
-    (count,) = _NUMBER.unpack_from(data, at)
-    at += _NUMBER.size
     places = []
-    for _ in range(count):
-        at = _behind_header(data, at)
-        # What is eight bytes long begins at a multiple of eight from behind the first word.
-        at += -(at - len(_LITTLE)) % 8
-        places.append(_PLACE.unpack_from(data, at))
-        at += _POSE_SIZE
-    return places
-
-
-def _behind_header(data: bytes, at: int) -> int:
-    """Return where a ``std_msgs/Header`` ends that begins at a place."""
-    at += _STAMP_SIZE
-    (length,) = _NUMBER.unpack_from(data, at)
-    return int(at + _NUMBER.size + length)
+    try:
+        cursor = Cursor(data)
+        cursor.skip_header()
+        (count,) = cursor.take(_COUNT)
+        for _ in range(count):
+            cursor.skip_header()
+            places.append(cursor.take(_PLACE, _WIDTH))
+    except ValueError:
+        return []
+    return places[1:]
