@@ -13,6 +13,7 @@ from typing import Any, Final
 import rclpy
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rcl_interfaces.msg import ParameterDescriptor
+from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 from rclpy.context import Context
@@ -24,7 +25,6 @@ from rclpy.serialization import deserialize_message
 
 from tlcomm_agent import tasking, wire, wire_map, wire_messages
 from tlcomm_agent.arrivals import Arrivals
-from tlcomm_agent.attention import Attention
 from tlcomm_agent.config import PARAMETERS, AgentConfig
 from tlcomm_agent.hearing import Hearings
 from tlcomm_agent.ignored import Ignored
@@ -54,15 +54,28 @@ _STATUS_INPUT: Final = 2
 _STATUS_BROKEN: Final = 3
 
 
+class _Attention(ReentrantCallbackGroup):
+    """Another agent's messages, taken while there is a point in it."""
+
+    def __init__(self, other: str, attended: Callable[[], Container[str]]) -> None:
+        super().__init__()
+        self._other = other
+        self._attended = attended
+
+    def can_execute(self, entity: object) -> bool:  # noqa: ARG002 (the group stands for it)
+        """Tell whether the other's messages are to be taken now."""
+        return self._other in self._attended()
+
+
 class AgentNode(Node):
     """An agent's brain and radio on topics.
 
     In lock step it acts when ticked, once everything that the tick counts has arrived.
 
-    Running freely, it acts once for all that came together, and at 20 Hz of the node's clock, which
-    odometry waits for. Waking up is most of what a short message costs; so of whom isn't in range
-    nothing is taken, and while the protocol can't go on without one agent's word, nobody else's:
-    what others say meanwhile waits. What overflows is lost, as it may be by radio.
+    Running freely, it acts once for all that came together, and at 20 Hz of the node's clock. Most
+    of what a short message costs is waking up for it; so of whom isn't in range nothing is taken,
+    and while the protocol can't go on without one agent's word, nobody else's: what others say
+    meanwhile waits, and is taken together. What overflows is lost, as it may be by radio.
 
     Attributes:
         config: who it is.
@@ -184,7 +197,7 @@ class AgentNode(Node):
             f"/{other}/{topic}",
             take,
             _COUNTED if self._is_lockstep else _BY_RADIO,
-            callback_group=Attention(other, lambda: self._attended),
+            callback_group=_Attention(other, lambda: self._attended),
             raw=True,
         )
 
@@ -195,9 +208,7 @@ class AgentNode(Node):
                 see(message)
             except WireError as error:
                 self._ignore(f"{topic}: {error}")
-            # Odometry that was answered at once would show the answer, and so on.
-            if self._is_lockstep or topic != "odom":
-                self._proceed()
+            self._proceed()
 
         return take
 
